@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Every descriptor of the RHI: plain aggregates, a default on every field, filled by designated initialisers.
+/// Nothing here is a template or knows an API.
+///
+/// Conventions on both backends: NDC y up, depth reversed (near 1, far 0, cleared to 0, compare greater), texture row
+/// 0 is the top row, front faces are counter-clockwise, sRGB encoding follows the attachment's format.
+#include <pellucid/core/flags.hpp>
+#include <pellucid/core/handle.hpp>
+#include <pellucid/core/image.hpp>
+#include <pellucid/core/log.hpp>
+#include <pellucid/core/small_vector.hpp>
+#include <pellucid/rhi/format.hpp>
+#include <pellucid/rhi/shader.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+
+namespace pellucid::rhi {
+
+using Buffer = Handle<struct BufferTag>;
+using Texture = Handle<struct TextureTag>;
+using Sampler = Handle<struct SamplerTag>;
+using Pipeline = Handle<struct PipelineTag>;  ///< graphics or compute
+using Group = Handle<struct GroupTag>;        ///< an immutable set of bound resources
+using Queries = Handle<struct QueriesTag>;    ///< a pool of queries of one kind
+
+inline constexpr std::size_t max_color_attachments = 8;
+inline constexpr std::size_t max_bindings = 24;    ///< in one group
+inline constexpr std::size_t max_push_bytes = 128;  ///< smallest limit of Vulkan, met on both backends
+inline constexpr std::size_t max_resources = 24;   ///< declared reads and writes of one pass
+
+// ---------------------------------------------------------------------------------------------------- device
+
+struct DeviceDesc {
+    std::string device = {};          ///< index ("0") or a part of the name; empty: the best one
+    bool validation = false;          ///< validation layer with synchronisation validation; GL debug output
+    std::uint32_t frames_in_flight = 2;  ///< 1 … 4
+    bool gl_spirv = false;            ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
+    std::string pipeline_cache = {};  ///< file of the driver's compiled pipelines; empty: none is kept
+    bool count_api_calls = false;     ///< put a counting thunk before every API function: `Device::api_calls()`
+    LogSink log = {};
+};
+
+/// What a device can do beyond the floor (tiers T0 and T1 of the design are the floor).
+struct DeviceInfo {
+    std::string backend;  ///< "vulkan", "opengl", "null"
+    std::string name;     ///< the device's own name
+    std::string driver;   ///< driver name and version
+    std::string api;      ///< API version
+    bool software = false;              ///< a CPU implementation
+    std::string missing;                ///< empty, or what keeps this device from being used
+    std::uint32_t max_texture_size = 0;  ///< [texel] 2D width and height
+    std::uint32_t max_array_layers = 0;
+    std::uint64_t max_storage_buffer_bytes = 0;
+    bool int64_atomics = false;   ///< tier T2
+    bool pixel_ordering = false;  ///< tier T3: fragment shader interlock
+    double timestamp_ns = 0;      ///< [ns] one timestamp tick; 0: no timestamps
+};
+
+// ---------------------------------------------------------------------------------------------------- memory
+
+enum class BufferUsage : std::uint8_t {
+    none = 0,
+    uniform = 1,
+    storage = 2,
+    index = 4,
+    indirect = 8,
+    copy_source = 16,
+    copy_destination = 32
+};
+/// Where a buffer lives and who maps it.
+enum class Memory : std::uint8_t {
+    device,   ///< GPU only; filled by `initial` or by copies
+    upload,   ///< mapped for writing by the CPU for the buffer's whole life
+    readback  ///< mapped for reading by the CPU for the buffer's whole life
+};
+
+struct BufferDesc {
+    std::uint64_t size = 0;  ///< [byte] > 0
+    BufferUsage usage = BufferUsage::storage;
+    Memory memory = Memory::device;
+    std::span<const std::byte> initial = {};  ///< empty, or at most `size` bytes copied at creation
+    const char* debug_name = "buffer";
+};
+
+enum class TextureUsage : std::uint8_t {
+    none = 0,
+    sampled = 1,
+    storage = 2,
+    attachment = 4,
+    copy_source = 8,
+    copy_destination = 16
+};
+enum class TextureKind : std::uint8_t { flat, array, cube };
+
+struct TextureDesc {
+    Extent2D size = {};           ///< [texel] both > 0
+    std::uint32_t layers = 1;     ///< array layers; 6 for a cube
+    std::uint32_t mips = 1;       ///< 1 … floor(log2(max(size))) + 1
+    Format format = Format::rgba8_unorm;
+    TextureKind kind = TextureKind::flat;  ///< what the shader sees: sampler2D, sampler2DArray, samplerCube
+    TextureUsage usage = TextureUsage::sampled;
+    /// Empty, or all texels: mip 0 (all layers, row 0 = top, tightly packed), then mip 1, …
+    std::span<const std::byte> initial = {};
+    const char* debug_name = "texture";
+};
+
+enum class Filter : std::uint8_t { nearest, linear };
+enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+struct SamplerDesc {
+    Filter min = Filter::linear;
+    Filter mag = Filter::linear;
+    Filter mip = Filter::linear;
+    bool mipmapped = true;  ///< false: only level 0
+    Wrap wrap_u = Wrap::repeat;
+    Wrap wrap_v = Wrap::repeat;
+    const char* debug_name = "sampler";
+    friend constexpr bool operator==(const SamplerDesc& a, const SamplerDesc& b) {
+        return a.min == b.min && a.mag == b.mag && a.mip == b.mip && a.mipmapped == b.mipmapped &&
+               a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v;
+    }
+};
+
+// ---------------------------------------------------------------------------------------------------- binding
+
+/// Three groups by frequency.  Group 0 belongs to the device (see `Commands::bind_frame`); 1 and 2 are made by passes.
+enum class GroupSlot : std::uint8_t { frame = 0, pass = 1, scene = 2 };
+
+enum class BindingKind : std::uint8_t { uniform_buffer, storage_buffer, sampled_texture, storage_texture };
+
+struct BindingLayout {
+    std::uint32_t binding = 0;  ///< number in the shader; unique in the whole program (gpu/bindings.h)
+    BindingKind kind = BindingKind::storage_buffer;
+    friend constexpr bool operator==(BindingLayout, BindingLayout) = default;
+};
+/// The shape of one group.  Every stage sees every binding.
+struct GroupLayout {
+    SmallVector<BindingLayout, max_bindings> bindings = {};
+    friend constexpr bool operator==(const GroupLayout&, const GroupLayout&) = default;
+};
+
+struct Binding {
+    std::uint32_t binding = 0;
+    Buffer buffer = {};        ///< for buffers: the whole of it
+    Texture texture = {};      ///< for textures
+    Sampler sampler = {};      ///< for sampled textures: combined with the texture
+    std::uint32_t mip = 0;     ///< storage textures: the level that is bound (all its layers)
+};
+struct GroupDesc {
+    GroupSlot slot = GroupSlot::pass;
+    GroupLayout layout = {};
+    SmallVector<Binding, max_bindings> bindings = {};  ///< one for each of the layout's, in any order
+    const char* debug_name = "group";
+};
+
+// ---------------------------------------------------------------------------------------------------- pipelines
+
+enum class Compare : std::uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+enum class Cull : std::uint8_t { none, back, front };
+enum class BlendFactor : std::uint8_t {
+    zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color
+};
+enum class BlendOp : std::uint8_t { add, min, max, reverse_subtract };
+
+struct Blend {
+    bool enabled = false;
+    BlendFactor src_color = BlendFactor::one;
+    BlendFactor dst_color = BlendFactor::zero;
+    BlendOp color_op = BlendOp::add;
+    BlendFactor src_alpha = BlendFactor::one;
+    BlendFactor dst_alpha = BlendFactor::zero;
+    BlendOp alpha_op = BlendOp::add;
+};
+/// `C = src.rgb + (1 - src.a) dst.rgb`: compositing of premultiplied colour (Porter and Duff 1984, "over").
+inline constexpr Blend blend_premultiplied = {true, BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add,
+                                              BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add};
+
+struct ColorTarget {
+    Format format = Format::rgba8_unorm;
+    Blend blend = {};
+    std::uint8_t write_mask = 0xF;  ///< bit 0 red … bit 3 alpha
+};
+struct StencilFace {
+    Compare compare = Compare::always;
+    enum class Op : std::uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
+    Op fail = Op::keep, depth_fail = Op::keep, pass = Op::keep;
+};
+struct DepthStencil {
+    Format format = Format::undefined;  ///< undefined: no depth attachment
+    bool test = false;
+    bool write = false;
+    Compare compare = Compare::greater;  ///< reversed depth
+    bool stencil_test = false;
+    StencilFace front = {}, back = {};
+    std::uint8_t stencil_read_mask = 0xFF, stencil_write_mask = 0xFF, stencil_reference = 0;
+};
+enum class Topology : std::uint8_t { triangles, triangle_strip, lines, points };
+
+struct GraphicsPipelineDesc {
+    const Shader* vertex = nullptr;
+    const Shader* fragment = nullptr;  ///< null: depth only
+    std::span<const SpecConstant> constants = {};
+    GroupLayout pass_group = {};   ///< shape of group 1; empty: none is bound
+    GroupLayout scene_group = {};  ///< shape of group 2; empty: none is bound
+    std::uint32_t push_bytes = 0;  ///< size of the push block, a multiple of 16 up to `max_push_bytes`
+    SmallVector<ColorTarget, max_color_attachments> colors = {};
+    DepthStencil depth = {};
+    Cull cull = Cull::back;
+    bool depth_clamp = false;
+    Topology topology = Topology::triangles;
+    const char* debug_name = "graphics pipeline";
+};
+struct ComputePipelineDesc {
+    const Shader* compute = nullptr;
+    std::span<const SpecConstant> constants = {};
+    GroupLayout pass_group = {};
+    GroupLayout scene_group = {};
+    std::uint32_t push_bytes = 0;
+    const char* debug_name = "compute pipeline";
+};
+
+// ---------------------------------------------------------------------------------------------------- passes
+
+/// How a pass uses a resource it does not attach.  Barriers follow from these declarations and from nothing else.
+enum class Access : std::uint8_t {
+    sampled,           ///< textures: texture(), texelFetch()
+    uniform_read,      ///< buffers
+    storage_read,      ///< buffers and storage textures
+    storage_write,     ///< the same; earlier content may be dropped by nobody, but is not read
+    storage_read_write,
+    index_read,
+    indirect_read,
+    copy_read,
+    copy_write
+};
+/// One buffer or one texture (all its levels and layers) and its use.
+struct ResourceUse {
+    Buffer buffer = {};
+    Texture texture = {};
+    Access access = Access::sampled;
+};
+using Uses = SmallVector<ResourceUse, max_resources>;
+[[nodiscard]] constexpr ResourceUse use(Buffer buffer, Access access) { return {.buffer = buffer, .access = access}; }
+[[nodiscard]] constexpr ResourceUse use(Texture texture, Access access) { return {.texture = texture, .access = access}; }
+
+enum class Load : std::uint8_t { load, clear, discard };
+enum class Store : std::uint8_t { store, discard };
+
+struct ColorAttachment {
+    Texture texture = {};
+    std::uint32_t mip = 0, layer = 0;
+    Load load = Load::clear;
+    Store store = Store::store;
+    float clear[4] = {0, 0, 0, 0};             ///< linear, also for sRGB formats
+    std::uint32_t clear_uint[4] = {0, 0, 0, 0};  ///< used instead for *_uint formats
+};
+struct DepthAttachment {
+    Texture texture = {};  ///< null: no depth attachment
+    std::uint32_t mip = 0, layer = 0;
+    Load load = Load::clear;
+    Store store = Store::store;
+    float clear = 0.0f;  ///< reversed depth: 0 is infinitely far
+    std::uint32_t clear_stencil = 0;
+    bool read_only = false;  ///< tested, never written; the pass may then also declare it `sampled`
+};
+struct RenderPassDesc {
+    SmallVector<ColorAttachment, max_color_attachments> colors = {};
+    DepthAttachment depth = {};
+    Uses uses = {};
+    Extent2D size = {};  ///< [texel] render area, viewport and scissor, from the top left; both > 0
+    const char* name = "render pass";
+};
+struct ComputePassDesc {
+    Uses uses = {};
+    const char* name = "compute pass";
+};
+struct CopyPassDesc {
+    Uses uses = {};
+    const char* name = "copy pass";
+};
+
+struct Draw {
+    std::uint32_t vertex_count = 0;
+    std::uint32_t instance_count = 1;
+    std::uint32_t first_vertex = 0;
+    std::uint32_t first_instance = 0;  ///< base instance: index of the draw's record
+};
+struct DrawIndexed {
+    std::uint32_t index_count = 0;
+    std::uint32_t instance_count = 1;
+    std::uint32_t first_index = 0;
+    std::int32_t vertex_offset = 0;
+    std::uint32_t first_instance = 0;  ///< base instance: index of the draw's record
+};
+struct Rect {
+    std::uint32_t x = 0, y = 0, width = 0, height = 0;  ///< [texel], from the top left
+};
+
+struct BufferCopy {
+    std::uint64_t source_offset = 0, destination_offset = 0, size = 0;  ///< [byte]
+};
+/// One level and layer of a texture ↔ tightly packed rows in a buffer, row 0 at the top.
+struct TextureCopy {
+    std::uint32_t mip = 0, layer = 0;
+    std::uint64_t buffer_offset = 0;  ///< [byte] a multiple of 16
+};
+
+/// Data written this frame: where `Commands::upload_*` put it in the device's ring.
+struct UniformSlice {
+    std::uint32_t block = 0;   ///< which block of the ring
+    std::uint32_t offset = 0;  ///< [byte]
+};
+struct RecordSlice {
+    std::uint32_t block = 0;
+    std::uint32_t first = 0;           ///< index of record 0: add it to `first_instance`
+    std::span<std::byte> bytes = {};   ///< write-combined memory: write it once, in order, and never read it
+};
+
+enum class QueryKind : std::uint8_t { timestamp, occlusion };
+struct QueriesDesc {
+    QueryKind kind = QueryKind::timestamp;
+    std::uint32_t count = 0;
+    const char* debug_name = "queries";
+};
+
+/// A point in the device's work; `Device::wait` and `Device::done` take it.  0 is always done.
+enum class Ticket : std::uint64_t { none = 0 };
+
+}  // namespace pellucid::rhi
+
+template <>
+inline constexpr bool pellucid::enable_flags<pellucid::rhi::BufferUsage> = true;
+template <>
+inline constexpr bool pellucid::enable_flags<pellucid::rhi::TextureUsage> = true;
