@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// Where the big test inputs are: models and malformed files (`assets`), scenes with known answers (`scenes`).  They are
-/// not part of the repository.
+/// Where the big test inputs are: models and malformed files (`assets`), scenes with known answers (`scenes`).  They
+/// are not part of the repository.
 #include <filesystem>
 #include <optional>
 #include <string>

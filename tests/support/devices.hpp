@@ -3,8 +3,8 @@
 /// \file
 /// Devices for tests: every backend this build has, validation on, and any warning or error of the driver, the
 /// validation layer or the library fails the test.
-#include <pellucid/rhi/backend.hpp>
 #include <memory>
+#include <pellucid/rhi/backend.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -59,8 +59,8 @@ struct TestDevice {
     typename B::Device* operator->() const { return device.get(); }
 };
 
-/// Makes a device with validation on; `adjust(desc)` may change what is asked for.  Where there is no device the test is
-/// skipped with a sentence (`if (!device) return;`), or fails under PELLUCID_REQUIRE_DEVICES=1.
+/// Makes a device with validation on; `adjust(desc)` may change what is asked for.  Where there is no device the test
+/// is skipped with a sentence (`if (!device) return;`), or fails under PELLUCID_REQUIRE_DEVICES=1.
 template <rhi::Backend B, class Adjust>
 TestDevice<B> make_device(Adjust&& adjust) {
     TestDevice<B> out;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// One triangle that covers everything; draw(3).  z = 0.5.
+// One triangle that covers everything, z = 0.5: draw(3).
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "common/prelude.glsl"
