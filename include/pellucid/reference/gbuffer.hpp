@@ -92,6 +92,8 @@ template <std::floating_point T>
 /// For a perspective camera z is −near/d: one division, no matrix, no cancellation, whatever far/near is.
 /// The result is relative to the eye, and only a rotation (`relative_from_view`) away from camera-relative world axes:
 /// the camera's own position never enters.  Precondition: depth > 0 (0 is background).
+/// In float: |Δp|/|p| <= 2e-7 for far/near up to 1e6 and any camera position, where the eye is subtracted and the view
+/// rotated in double before the vertices become float; <= 4e-7 where float also rotates into view space and back.
 template <std::floating_point T>
 [[nodiscard]] glm::vec<3, T> view_from_depth(const ClipCoefficients<T>& clip, glm::vec<2, T> ndc, T depth) noexcept {
     const T z = (depth * clip.ww - clip.zw) / (clip.zz - depth * clip.wz);

@@ -75,7 +75,7 @@ inline constexpr double desaturation = 0.15;
 
 template <std::floating_point T>
 glm::vec<3, T> tone_map_neutral(glm::vec<3, T> color) noexcept {
-    constexpr T start(neutral::compression_start), range(neutral::compression_range);
+    constexpr T start = T(neutral::compression_start), range = T(neutral::compression_range);
     const T least = std::min({color.x, color.y, color.z});
     const T offset = least < T(0.08) ? least - T(6.25) * least * least : T(0.04);
     const glm::vec<3, T> shifted = color - glm::vec<3, T>(offset);
@@ -88,7 +88,7 @@ glm::vec<3, T> tone_map_neutral(glm::vec<3, T> color) noexcept {
 
 template <std::floating_point T>
 glm::vec<3, T> inverse_tone_map_neutral(glm::vec<3, T> mapped) noexcept {
-    constexpr T start(neutral::compression_start), range(neutral::compression_range);
+    constexpr T start = T(neutral::compression_start), range = T(neutral::compression_range);
     const T new_peak = std::max({mapped.x, mapped.y, mapped.z});
     glm::vec<3, T> shifted = mapped;
     if (new_peak >= start) {
@@ -118,7 +118,7 @@ glm::vec<3, T> tone_map_agx(glm::vec<3, T> color) noexcept {
     const Matrix outset(Vector(T(1.19687900512017), T(-0.0528968517574562), T(-0.0529716355144438)),
                         Vector(T(-0.0980208811401368), T(1.15190312990417), T(-0.0980434501171241)),
                         Vector(T(-0.0990297440797205), T(-0.0989611768448433), T(1.15107367264116)));
-    constexpr T lowest(-12.47393), highest(4.026069);  // [stops] around 1: 0.18 · 2^−10 … 0.18 · 2^6.5
+    constexpr T lowest = T(-12.47393), highest = T(4.026069);  // [stops] around 1: 0.18 · 2^−10 … 0.18 · 2^6.5
     Vector v = inset * color;
     for (int i = 0; i < 3; ++i) {
         const T stops = std::clamp(std::log2(std::max(v[i], T(1e-10))), lowest, highest);
