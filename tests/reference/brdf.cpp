@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <pellucid/reference/brdf.hpp>
 #include <limits>
+#include <pellucid/reference/brdf.hpp>
 #include "sampling.hpp"
 #include "support/catch.hpp"
 
@@ -19,7 +19,9 @@ double textbook_distribution(double theta, double alpha) {
     return a2 / (pi * c * c * c * c * (a2 + t * t) * (a2 + t * t));
 }
 
-double angle_between(glm::dvec3 a, glm::dvec3 b) { return pellucid::test::degrees_between(a, b) * pi / 180.0; }
+double angle_between(glm::dvec3 a, glm::dvec3 b) {
+    return pellucid::test::degrees_between(a, b) * pi / 180.0;
+}
 
 /// Largest relative error of D in float, over half vectors within tan θ <= 2α of the normal, against D in double of the
 /// same stored vectors.  `stored_half`: the half vector itself is stored; else V and L are, and float adds them.
@@ -119,8 +121,7 @@ TEST_CASE("D in float keeps its digits where the usual form loses them", "[cpu]"
 TEST_CASE("visibility has its closed form at N.L = 1, also at grazing views", "[cpu]") {
     for (const double alpha : {2.025e-3, 0.01, 0.25, 1.0})
         for (const double n_dot_v : {0.0, 1e-6, 1e-3, 0.01, 0.5, 1.0}) {
-            const double exact =
-                0.5 / (std::sqrt(n_dot_v * n_dot_v * (1 - alpha * alpha) + alpha * alpha) + n_dot_v);
+            const double exact = 0.5 / (std::sqrt(n_dot_v * n_dot_v * (1 - alpha * alpha) + alpha * alpha) + n_dot_v);
             CHECK(smith_visibility(n_dot_v, 1.0, alpha) == Approx(exact).epsilon(1e-12));
             CHECK(smith_visibility(static_cast<float>(n_dot_v), 1.0f, static_cast<float>(alpha)) ==
                   Approx(exact).epsilon(1e-6));
@@ -196,7 +197,13 @@ TEMPLATE_TEST_CASE("no input of the 8-bit cube gives a NaN, an infinity or a neg
     for (int i = 0; i < 12; ++i) {
         const Vector v(random.direction()), r = TestType(2) * glm::dot(n, v) * n - v;
         const Vector side(glm::normalize(glm::cross(glm::dvec3(n), random.direction())));
-        for (const auto& pair : {std::pair(v, r), {v, -v}, {v, v}, {v, side}, {side, v}, {side, -side}, {side, n},
+        for (const auto& pair : {std::pair(v, r),
+                                 {v, -v},
+                                 {v, v},
+                                 {v, side},
+                                 {side, v},
+                                 {side, -side},
+                                 {side, n},
                                  {v, Vector(random.direction())}})
             pairs.push_back(pair);
     }
@@ -277,8 +284,7 @@ TEST_CASE("the Blinn-Phong lobe is normalised and peaks with GGX", "[cpu]") {
         for (int i = 0; i < steps; ++i) {
             const double t = (i + 0.5) / steps, theta = 0.5 * pi * t * t * t;  // graded toward the axis
             const glm::dvec3 h(std::sin(theta), 0, std::cos(theta));
-            sum += 2 * pi * std::sin(theta) * 1.5 * pi * t * t / steps *
-                   evaluate_blinn_phong(metal, h, h).specular.x;
+            sum += 2 * pi * std::sin(theta) * 1.5 * pi * t * t / steps * evaluate_blinn_phong(metal, h, h).specular.x;
         }
         CHECK(4 * sum == Approx(1).epsilon(1e-6));
     }

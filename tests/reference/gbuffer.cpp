@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <pellucid/reference/gbuffer.hpp>
 #include <limits>
+#include <pellucid/reference/gbuffer.hpp>
 #include <vector>
 #include "sampling.hpp"
 #include "support/catch.hpp"
@@ -90,8 +90,8 @@ TEST_CASE("oct32 normals stay within 0.0025 degrees in float arithmetic", "[cpu]
     }
     CHECK(worst <= 0.0025);
     for (const glm::dvec3& d : hard_directions())
-        REQUIRE(degrees_between(
-                    glm::dvec3(direction_from_oct32<float>(oct32_from_direction(glm::vec3(d)))), d) <= 0.0025);
+        REQUIRE(degrees_between(glm::dvec3(direction_from_oct32<float>(oct32_from_direction(glm::vec3(d)))), d) <=
+                0.0025);
 }
 
 TEST_CASE("the six axes are stored exactly, whatever the signs of their zeros", "[cpu]") {

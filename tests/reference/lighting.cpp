@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <pellucid/reference/lighting.hpp>
 #include <limits>
+#include <pellucid/reference/lighting.hpp>
 #include <vector>
 #include "sampling.hpp"
 #include "support/catch.hpp"
@@ -102,16 +102,17 @@ TEST_CASE("a light out of its documented ranges is named in one sentence", "[cpu
 }
 
 TEST_CASE("radiance is the sum over lights, plus ambient and emissive", "[cpu]") {
-    const Surface<double> surface{.normal = {0, 1, 0},
-                                  .base_color = {0.5, 0.25, 1},
-                                  .roughness = 0.6,
-                                  .occlusion = 0.5,
-                                  .emissive = {3, 0, 0}};
+    const Surface<double> surface{
+        .normal = {0, 1, 0}, .base_color = {0.5, 0.25, 1}, .roughness = 0.6, .occlusion = 0.5, .emissive = {3, 0, 0}};
     const glm::dvec3 p(0.2, 0, -0.4), v = glm::normalize(glm::dvec3(0.3, 1, 0.2));
     const std::vector<Light> lights = {
         {.kind = LightKind::directional, .color = {1, 0.5f, 0.25f}, .intensity = 10, .direction = {0, -1, 0}},
         {.kind = LightKind::point, .intensity = 4, .range = 5, .position = {1, 2, 0}},
-        {.kind = LightKind::spot, .intensity = 100, .inner_cone = 0.1, .outer_cone = 0.4, .position = {0.2, 3, -0.4},
+        {.kind = LightKind::spot,
+         .intensity = 100,
+         .inner_cone = 0.1,
+         .outer_cone = 0.4,
+         .position = {0.2, 3, -0.4},
          .direction = {0, -1, 0}}};
     const glm::dvec3 none(0.0);
     glm::dvec3 sum(0.0);

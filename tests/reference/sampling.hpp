@@ -2,9 +2,9 @@
 #pragma once
 /// \file
 /// Directions for the reference tests: a seeded sequence that is the same with every standard library.
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
-#include <cmath>
 #include <numbers>
 #include <random>
 

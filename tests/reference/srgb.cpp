@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <pellucid/reference/srgb.hpp>
 #include <limits>
+#include <pellucid/reference/srgb.hpp>
 #include "support/catch.hpp"
 
 using namespace pellucid::reference;

@@ -10,12 +10,12 @@
 /// N·V < 0 happens where an interpolated or mapped normal turns away from the eye.  There |N·V| stands in for N·V and
 /// D is even in N·H (the usual step function at N·H = 0 is left out, since N·L > 0 and N·V > 0 imply N·H > 0), so the
 /// response stays finite, positive and continuous.
-#include <glm/geometric.hpp>
-#include <glm/vec3.hpp>
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <limits>
 #include <numbers>
 
@@ -106,9 +106,9 @@ template <std::floating_point T>
                                             glm::vec<3, T> to_light) noexcept;
 
 /// Blinn–Phong in radiometric units: diffuse = (1 − metallic) base/π (N·L), specular = F0 (s+2)/(8π) (N·H)^s (N·L),
-/// s = 2/α² − 2 with α from `punctual_alpha`.  (s+2)/(2π) (N·H)^s is then a normalised distribution whose peak, 1/(πα²),
-/// is that of GGX; the 1/4 left is masking by N·L N·V.  No Fresnel term, diffuse keeps its full share.  Specular is 0
-/// where N·H <= 0 or V + L = 0.
+/// s = 2/α² − 2 with α from `punctual_alpha`.  (s+2)/(2π) (N·H)^s is then a normalised distribution whose peak,
+/// 1/(πα²), is that of GGX; the 1/4 left is masking by N·L N·V.  No Fresnel term, diffuse keeps its full share.
+/// Specular is 0 where N·H <= 0 or V + L = 0.
 template <std::floating_point T>
 [[nodiscard]] BrdfResponse<T> evaluate_blinn_phong(const Surface<T>& surface, glm::vec<3, T> to_eye,
                                                    glm::vec<3, T> to_light) noexcept;
@@ -212,8 +212,7 @@ BrdfResponse<T> evaluate_seed(const Surface<T>& surface, glm::vec<3, T> to_eye, 
     const glm::vec<3, T> sum = to_eye + to_light;
     const bool has_half = glm::dot(sum, sum) >= T(min_half_vector2);
     const glm::vec<3, T> half = has_half ? glm::normalize(sum) : glm::vec<3, T>(T(0));
-    const glm::vec<3, T> fresnel =
-        schlick_fresnel(normal_reflectance(surface), std::max(glm::dot(half, to_eye), T(0)));
+    const glm::vec<3, T> fresnel = schlick_fresnel(normal_reflectance(surface), std::max(glm::dot(half, to_eye), T(0)));
     T lobe = seed_distribution(std::max(glm::dot(surface.normal, half), T(0)), surface.roughness) *
              seed_masking(n_dot_v, surface.roughness) * seed_masking(n_dot_l, surface.roughness) /
              (T(4) * n_dot_v * n_dot_l + T(0.0001));
@@ -239,7 +238,7 @@ BrdfResponse<T> evaluate_blinn_phong(const Surface<T>& surface, glm::vec<3, T> t
     const T sin2 = std::min(glm::dot(c, c) / half2, T(1) - std::numeric_limits<T>::epsilon());
     const T power = std::exp(T(0.5) * exponent * std::log1p(-sin2));
     response.specular =
-        normal_reflectance(surface) * ((exponent + T(2)) / (T(8) * std::numbers::pi_v<T>) * power * n_dot_l);
+        normal_reflectance(surface) * ((exponent + T(2)) / (T(8) * std::numbers::pi_v<T>)*power * n_dot_l);
     return response;
 }
 

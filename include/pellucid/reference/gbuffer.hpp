@@ -3,17 +3,17 @@
 /// \file
 /// What the G-buffer stores and how it is read back: octahedral normals, the `compact` layout's packing, positions from
 /// reversed depth.  Templates on the floating type: `double` is the reference, `float` emulates a shader.
-#include <pellucid/core/image.hpp>
-#include <pellucid/reference/brdf.hpp>
-#include <pellucid/reference/srgb.hpp>
-#include <pellucid/scene/camera.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-#include <glm/vec3.hpp>
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <pellucid/core/image.hpp>
+#include <pellucid/reference/brdf.hpp>
+#include <pellucid/reference/srgb.hpp>
+#include <pellucid/scene/camera.hpp>
 
 namespace pellucid::reference {
 

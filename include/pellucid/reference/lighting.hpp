@@ -6,13 +6,13 @@
 /// No shadows, no environment.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
 /// light at normal incidence [lx] times its linear colour:
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <pellucid/core/result.hpp>
 #include <pellucid/reference/brdf.hpp>
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
-#include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <span>
 
 namespace pellucid::reference {

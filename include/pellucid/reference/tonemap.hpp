@@ -6,12 +6,12 @@
 ///
 /// Every operator takes any input: NaN and negative channels count as 0, channels above 65504 (also +infinity) as
 /// 65504, before the exposure multiplies them.  So no operator returns NaN, and each is monotone in exposure on grey.
-#include <glm/mat3x3.hpp>
-#include <glm/vec3.hpp>
 #include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
 
 namespace pellucid::reference {
 
@@ -135,11 +135,20 @@ template <std::floating_point T>
 glm::vec<3, T> tone_map(ToneMap operation, T ev, glm::vec<3, T> color) noexcept {
     glm::vec<3, T> mapped = sanitized(color) * std::exp2(ev);
     switch (operation) {
-        case ToneMap::none: break;
-        case ToneMap::reinhard: mapped = tone_map_reinhard(mapped); break;
-        case ToneMap::neutral: mapped = tone_map_neutral(mapped); break;
-        case ToneMap::aces: mapped = tone_map_aces(mapped); break;
-        case ToneMap::agx: mapped = tone_map_agx(mapped); break;
+        case ToneMap::none:
+            break;
+        case ToneMap::reinhard:
+            mapped = tone_map_reinhard(mapped);
+            break;
+        case ToneMap::neutral:
+            mapped = tone_map_neutral(mapped);
+            break;
+        case ToneMap::aces:
+            mapped = tone_map_aces(mapped);
+            break;
+        case ToneMap::agx:
+            mapped = tone_map_agx(mapped);
+            break;
     }
     for (int i = 0; i < 3; ++i) mapped[i] = std::min(mapped[i], T(1));
     return mapped;
