@@ -32,19 +32,21 @@ inline void gltf_check_version(const GltfValue& root) {
     if (!asset.has("version") || !asset["version"].json().is_string())
         asset.fail("lacks the required member \"version\"");
     const auto version = gltf_parse_version(asset.text("version"));
-    if (!version) asset["version"].fail("is \"" + GltfValue::escape(asset.text("version")) + "\", no major.minor");
+    if (!version) asset["version"].fail("is \"" + gltf_printable(asset.text("version")) + "\", no major.minor");
     if (version->first != 2)
         asset["version"].fail("is " + asset.text("version") + ", only glTF 2 can be read; convert the file");
     if (!asset.has("minVersion") || !asset["minVersion"].json().is_string()) return;
     const auto least = gltf_parse_version(asset.text("minVersion"));
     if (!least || *least > *version || *least > std::pair{2u, 0u})
-        asset["minVersion"].fail("is \"" + GltfValue::escape(asset.text("minVersion")) + "\", this loader reads 2.0");
+        asset["minVersion"].fail("is \"" + gltf_printable(asset.text("minVersion")) + "\", this loader reads 2.0");
 }
 
 inline void gltf_check_extensions(const GltfValue& root, Scene& scene) {
     constexpr std::string_view known[] = {"KHR_lights_punctual", "KHR_materials_unlit", "KHR_texture_transform",
                                           "KHR_materials_emissive_strength", "KHR_mesh_quantization"};
-    const auto is_known = [&](const std::string& name) { return std::find(known, std::end(known), name) != std::end(known); };
+    const auto is_known = [&](const std::string& name) {
+        return std::find(known, std::end(known), name) != std::end(known);
+    };
     const auto names = [&](const char* key) {
         std::vector<std::string> list;
         if (root.has(key))
@@ -55,10 +57,10 @@ inline void gltf_check_extensions(const GltfValue& root, Scene& scene) {
     for (std::size_t i = 0; i < required.size(); ++i)
         if (!is_known(required[i]))
             root["extensionsRequired"][i].fail("the file cannot be shown without the extension " +
-                                               GltfValue::escape(required[i]) + ", which this loader does not know");
+                                               gltf_printable(required[i]) + ", which this loader does not know");
     for (const std::string& name : names("extensionsUsed"))
         if (!is_known(name) && scene.warnings.size() < 1000)
-            scene.warnings.push_back("/extensionsUsed: " + GltfValue::escape(name) + " is left out");
+            scene.warnings.push_back("/extensionsUsed: " + gltf_printable(name) + " is left out");
 }
 
 /// Rules that tie members of one object together.
@@ -73,7 +75,7 @@ inline void gltf_check_objects(const GltfValue& root) {
         const GltfValue camera = root["cameras"][i];
         const std::string type = camera.text("type");
         if (type != "perspective" && type != "orthographic")
-            camera["type"].fail("is \"" + GltfValue::escape(type) + "\", neither perspective nor orthographic");
+            camera["type"].fail("is \"" + gltf_printable(type) + "\", neither perspective nor orthographic");
         if (!camera.has(type.c_str()) || camera.has(type == "perspective" ? "orthographic" : "perspective"))
             camera.fail("is " + type + ", must have the member \"" + type + "\" and not the other one");
     }
@@ -82,7 +84,16 @@ inline void gltf_check_objects(const GltfValue& root) {
         const GltfValue list = root["extensions"]["KHR_lights_punctual"]["lights"];
         lights = list.size();
         for (std::size_t i = 0; i < lights; ++i)
-            if (list[i].text("type") == "spot" && !list[i].has("spot")) list[i].fail("is a spot, lacks the member \"spot\"");
+            if (list[i].text("type") == "spot" && !list[i].has("spot"))
+                list[i].fail("is a spot, lacks the member \"spot\"");
+    }
+    for (std::size_t i = 0; root.has("animations") && i < root["animations"].size(); ++i) {
+        const GltfValue channels = root["animations"][i]["channels"];
+        const std::size_t samplers = root["animations"][i]["samplers"].size();
+        for (std::size_t c = 0; c < channels.size(); ++c)
+            if (channels[c].integer("sampler") >= samplers)
+                channels[c]["sampler"].fail("is " + channels[c]["sampler"].json().dump() + ", the animation has " +
+                                            std::to_string(samplers) + " samplers");
     }
     for (std::size_t i = 0; root.has("nodes") && i < root["nodes"].size(); ++i) {
         const GltfValue node = root["nodes"][i];
@@ -100,7 +111,8 @@ inline void gltf_check_objects(const GltfValue& root) {
 /// that of the tables.
 inline tinygltf::Model gltf_describe(const Json& root) {
     Json tables = Json::object();
-    for (const char* key : {"asset", "scene", "scenes", "nodes", "materials", "textures", "samplers", "cameras", "extensions"})
+    for (const char* key :
+         {"asset", "scene", "scenes", "nodes", "materials", "textures", "samplers", "cameras", "extensions"})
         if (const auto found = root.find(key); found != root.end()) tables[key] = *found;
     const std::string text = tables.dump();
     tables = Json();

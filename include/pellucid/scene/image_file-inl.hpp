@@ -51,8 +51,7 @@ PELLUCID_INLINE Result<void> write_pfm(const std::string& path, const ImageF& im
                                                  std::to_string(image.width) + " x " + std::to_string(image.height) +
                                                  " with " + std::to_string(image.channels)};
     static_assert(std::endian::native == std::endian::little, "the scale written below says little-endian");
-    const std::string header =
-        "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
+    const std::string header = "PF\n" + std::to_string(image.width) + " " + std::to_string(image.height) + "\n-1.0\n";
     std::vector<std::byte> bytes(header.size() + std::size_t{image.width} * image.height * 3 * sizeof(float));
     std::memcpy(bytes.data(), header.data(), header.size());
     std::byte* target = bytes.data() + header.size();
@@ -139,8 +138,9 @@ PELLUCID_INLINE Result<Image8> read_pgm(const std::string& path, const ImageLimi
     const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     PELLUCID_TRY(const detail::NetpbmHeader header, detail::read_netpbm_header(text, path, limits));
     if (header.kind != "P5" || !(header.number >= 1 && header.number <= 255))
-        return Error{Errc::parse, path + ": is not a binary 8-bit PGM: it does not start with P5, or its largest value "
-                                         "is outside 1 to 255"};
+        return Error{Errc::parse, path +
+                                      ": is not a binary 8-bit PGM: it does not start with P5, or its largest value "
+                                      "is outside 1 to 255"};
     Image8 image(header.size.width, header.size.height, 1);
     if (bytes.size() - header.data < image.data.size())
         return Error{Errc::parse, path + ": holds " + std::to_string(bytes.size() - header.data) +

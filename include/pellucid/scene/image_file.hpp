@@ -15,9 +15,9 @@
 namespace pellucid {
 
 struct ImageLimits {
-    std::uint32_t max_side = 16384;                 ///< [texel]
+    std::uint32_t max_side = 16384;                     ///< [texel]
     std::uint64_t max_bytes = std::uint64_t{1} << 30u;  ///< [B] of the decoded picture, 4 a texel
-    std::uint32_t max_scans = 64;                   ///< of a progressive JPEG: each costs a pass over the picture
+    std::uint32_t max_scans = 64;                       ///< of a progressive JPEG: each costs a pass over the picture
 };
 
 /// Decodes a PNG or a JPEG, told apart by their first bytes, to `[h, w, 4]` RGBA, 8 bits a channel, straight alpha, as

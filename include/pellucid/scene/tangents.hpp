@@ -5,9 +5,10 @@
 ///
 /// Each triangle has a direction of growing u on its surface and a handedness.  A vertex gets the sum of the directions
 /// of its triangles, each made orthogonal to the vertex's normal, of unit length, and weighted by the triangle's angle
-/// there (measured orthogonal to the normal).  Corners that share position, normal and texture coordinate are one vertex,
-/// whatever their indices; corners of unlike handedness never are, and neither are corners whose triangles touch only in
-/// that point (a fan that is not joined by edges).  Where the result differs for one index, the vertex is doubled.
+/// there (measured orthogonal to the normal).  Corners that share position, normal and texture coordinate are one
+/// vertex, whatever their indices; corners of unlike handedness never are, and neither are corners whose triangles
+/// touch only in that point (a fan that is not joined by edges).  Where the result differs for one index, the vertex is
+/// doubled.
 ///
 /// The result agrees with MikkTSpace in these rules, with glTF's sign: the bitangent w cross(normal, tangent) points up
 /// the picture, to falling v.  It differs where texture coordinates are degenerate: MikkTSpace

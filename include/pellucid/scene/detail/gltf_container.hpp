@@ -82,12 +82,10 @@ inline Json gltf_parse_json(std::string_view text, const GltfLimits& limits) {
     try {
         return Json::parse(text, keep);
     } catch (const Json::exception& exception) {
-        std::string why = exception.what();
-        // The parser quotes what it has read last: keep the sentence short and printable.
-        for (char& c : why)
-            if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
-        if (why.size() > 160) why = why.substr(0, 160) + "...";
-        gltf_fail("is not valid JSON: " + why);
+        // "[json.exception.kind.number] parse error at line 1, column 2: …"; it quotes what it has read last.
+        std::string_view why = exception.what();
+        why.remove_prefix(std::min(why.find("] ") + 2, why.size()));
+        gltf_fail("is not valid JSON: " + gltf_printable(why, 160));
     }
 }
 

@@ -30,7 +30,8 @@ struct GltfAccessor {
     std::string type;     ///< "SCALAR", "VEC3" …
     GltfComponent component = GltfComponent::f32;
     std::uint32_t width = 1;         ///< components an element
-    std::uint32_t element_size = 0;  ///< [B], with the padding of matrix columns
+    std::uint32_t element_size = 0;  ///< [B], with the padding of matrix columns: the distance of packed elements
+    std::uint32_t last_size = 0;     ///< [B] of the last element: without the padding of its last column
     std::uint64_t count = 0;
     bool normalized = false;
     std::size_t view = npos;  ///< npos: all zeros
@@ -51,6 +52,7 @@ public:
         if (root.has("buffers")) read_buffers(root["buffers"], container, folder, limits);
         if (root.has("bufferViews")) read_views(root["bufferViews"]);
         if (root.has("accessors")) read_accessors(root["accessors"]);
+        for (const GltfAccessor& accessor : accessors_) check_finite(accessor);
     }
 
     [[nodiscard]] const std::vector<GltfAccessor>& accessors() const noexcept { return accessors_; }
@@ -105,12 +107,12 @@ public:
                                            const std::filesystem::path& folder, std::uint64_t limit) {
         if (is_data_uri(uri)) {
             auto bytes = decode_data_uri(uri);
-            if (!bytes) place.fail("is a data URI that is not valid base64");
+            if (!bytes) place.fail("is a data URI whose base64 or percent encoding is broken");
             return std::move(*bytes);
         }
         const auto path = resolve_uri(uri, folder);
         if (!path) {
-            std::string shown = GltfValue::escape(uri);
+            std::string shown = gltf_printable(uri);
             place.fail("is \"" + shown + "\", which is no relative path; copy the file beside the document");
         }
         auto bytes = read_file(*path, limit);
@@ -160,19 +162,22 @@ private:
         const Shape* shape = nullptr;
         for (const Shape& candidate : shapes)
             if (accessor.type == candidate.type) shape = &candidate;
-        if (!shape) value["type"].fail("is \"" + GltfValue::escape(accessor.type) + "\", none of SCALAR to MAT4");
+        if (!shape) value["type"].fail("is \"" + gltf_printable(accessor.type) + "\", none of SCALAR to MAT4");
         accessor.width = shape->columns * shape->rows;
         // Columns of matrices start at multiples of four bytes.
         const std::uint32_t column = shape->rows * size;
         accessor.element_size = shape->columns == 1 ? column : shape->columns * ((column + 3) / 4 * 4);
+        accessor.last_size = accessor.element_size - (shape->columns == 1 ? 0 : (column + 3) / 4 * 4 - column);
         accessor.count = value.integer("count");
         accessor.normalized = value.boolean("normalized");
-        if (accessor.normalized && (accessor.component == GltfComponent::f32 || accessor.component == GltfComponent::u32))
+        if (accessor.normalized &&
+            (accessor.component == GltfComponent::f32 || accessor.component == GltfComponent::u32))
             value["normalized"].fail("is true, which 32-bit components cannot be");
         accessor.offset = value.integer("byteOffset");
         if (value.has("bufferView")) {
             accessor.view = value.integer("bufferView");
-            check_range(value, accessor.view, accessor.offset, accessor.count, accessor.element_size, size, true);
+            check_range(value, accessor.view, accessor.offset, accessor.count, accessor.element_size,
+                        accessor.last_size, size, true);
         } else if (value.has("byteOffset")) {
             value.fail("has a byteOffset but no bufferView");
         }
@@ -192,11 +197,34 @@ private:
         accessor.sparse_index_view = indices.integer("bufferView");
         accessor.sparse_index_offset = indices.integer("byteOffset");
         check_range(indices, accessor.sparse_index_view, accessor.sparse_index_offset, accessor.sparse_count, size,
-                    size, false);
+                    size, size, false);
         accessor.sparse_value_view = values.integer("bufferView");
         accessor.sparse_value_offset = values.integer("byteOffset");
         check_range(values, accessor.sparse_value_view, accessor.sparse_value_offset, accessor.sparse_count,
-                    accessor.element_size, gltf_size(accessor.component), false);
+                    accessor.element_size, accessor.last_size, gltf_size(accessor.component), false);
+    }
+
+    /// No float of the file is infinite or NaN, whatever it is for.
+    void check_finite(const GltfAccessor& accessor) const {
+        if (accessor.component != GltfComponent::f32) return;
+        const auto check = [&](std::size_t index, std::uint64_t offset, std::uint64_t count, bool strided) {
+            const GltfBufferView& view = views_[index];
+            if (!buffers_[view.buffer].present) return;
+            const std::uint64_t stride = strided && view.stride != 0 ? view.stride : accessor.element_size;
+            const std::byte* base = buffers_[view.buffer].bytes.data() + view.offset + offset;
+            for (std::uint64_t i = 0; i < count; ++i)
+                for (std::uint32_t c = 0; c < accessor.width; ++c) {
+                    float number;
+                    std::memcpy(&number, base + i * stride + std::size_t{c} * sizeof number, sizeof number);
+                    if (!std::isfinite(number))
+                        gltf_fail(accessor.pointer + ": component " + std::to_string(c) + " of " +
+                                  (strided ? "element " : "sparse value ") + std::to_string(i) + " is " +
+                                  std::to_string(number) + ", must be finite");
+                }
+        };
+        if (accessor.view != GltfAccessor::npos) check(accessor.view, accessor.offset, accessor.count, true);
+        if (accessor.sparse_count != 0)
+            check(accessor.sparse_value_view, accessor.sparse_value_offset, accessor.sparse_count, false);
     }
 
     static GltfComponent component(const GltfValue& value) {
@@ -205,10 +233,10 @@ private:
         return static_cast<GltfComponent>(number);
     }
 
-    /// offset + stride (count - 1) + element <= the view's length, in 64 bits without wrapping; and the alignment that
+    /// offset + stride (count - 1) + last <= the view's length, in 64 bits without wrapping; and the alignment that
     /// graphics APIs need.
     void check_range(const GltfValue& value, std::size_t index, std::uint64_t offset, std::uint64_t count,
-                     std::uint64_t element, std::uint64_t alignment, bool strided) const {
+                     std::uint64_t element, std::uint64_t last, std::uint64_t alignment, bool strided) const {
         const GltfBufferView& view = views_[index];
         const std::uint64_t stride = strided && view.stride != 0 ? view.stride : element;
         const std::string name = "/bufferViews/" + std::to_string(index);
@@ -218,8 +246,8 @@ private:
         if (offset % alignment != 0 || (view.offset + offset) % alignment != 0 || stride % alignment != 0)
             value.fail("byteOffset " + std::to_string(offset) + " in " + name + " is not aligned to components of " +
                        std::to_string(alignment) + " bytes");
-        const bool inside = offset <= view.length && element <= view.length - offset &&
-                            (count - 1) <= (view.length - offset - element) / stride;
+        const bool inside = offset <= view.length && last <= view.length - offset &&
+                            (count - 1) <= (view.length - offset - last) / stride;
         if (!inside)
             value.fail(std::to_string(count) + " elements of " + std::to_string(element) + " bytes at byteOffset " +
                        std::to_string(offset) + ", " + std::to_string(stride) + " apart, reach beyond the " +
@@ -252,12 +280,18 @@ public:
         if (!at) return 0.0f;
         const bool scaled = accessor_->normalized;
         switch (accessor_->component) {
-            case GltfComponent::i8: return signed_number(get<std::int8_t>(at, c), 127.0f, scaled);
-            case GltfComponent::u8: return static_cast<float>(get<std::uint8_t>(at, c)) / (scaled ? 255.0f : 1.0f);
-            case GltfComponent::i16: return signed_number(get<std::int16_t>(at, c), 32767.0f, scaled);
-            case GltfComponent::u16: return static_cast<float>(get<std::uint16_t>(at, c)) / (scaled ? 65535.0f : 1.0f);
-            case GltfComponent::u32: return static_cast<float>(get<std::uint32_t>(at, c));
-            default: return get<float>(at, c);
+            case GltfComponent::i8:
+                return signed_number(get<std::int8_t>(at, c), 127.0f, scaled);
+            case GltfComponent::u8:
+                return static_cast<float>(get<std::uint8_t>(at, c)) / (scaled ? 255.0f : 1.0f);
+            case GltfComponent::i16:
+                return signed_number(get<std::int16_t>(at, c), 32767.0f, scaled);
+            case GltfComponent::u16:
+                return static_cast<float>(get<std::uint16_t>(at, c)) / (scaled ? 65535.0f : 1.0f);
+            case GltfComponent::u32:
+                return static_cast<float>(get<std::uint32_t>(at, c));
+            default:
+                return get<float>(at, c);
         }
     }
     /// The value of a scalar of an unsigned type.

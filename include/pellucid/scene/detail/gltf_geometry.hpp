@@ -16,15 +16,23 @@ struct GltfAttributeRule {
     const char* types[2];  ///< the second may be null
     bool f32 = true;
     bool normalized_u8_u16 = false;
-    bool quantized = false;        ///< more under KHR_mesh_quantization: i8, i16 (and u8, u16 where `quantized_unsigned`)
+    bool quantized = false;  ///< more under KHR_mesh_quantization: i8, i16 (and u8, u16 where `quantized_unsigned`)
     bool quantized_unsigned = false;
 };
 inline constexpr GltfAttributeRule gltf_attribute_rules[] = {
     {.name = "POSITION", .types = {"VEC3", nullptr}, .quantized = true, .quantized_unsigned = true},
     {.name = "NORMAL", .types = {"VEC3", nullptr}, .quantized = true},
     {.name = "TANGENT", .types = {"VEC4", nullptr}, .quantized = true},
-    {.name = "TEXCOORD_0", .types = {"VEC2", nullptr}, .normalized_u8_u16 = true, .quantized = true, .quantized_unsigned = true},
-    {.name = "TEXCOORD_1", .types = {"VEC2", nullptr}, .normalized_u8_u16 = true, .quantized = true, .quantized_unsigned = true},
+    {.name = "TEXCOORD_0",
+     .types = {"VEC2", nullptr},
+     .normalized_u8_u16 = true,
+     .quantized = true,
+     .quantized_unsigned = true},
+    {.name = "TEXCOORD_1",
+     .types = {"VEC2", nullptr},
+     .normalized_u8_u16 = true,
+     .quantized = true,
+     .quantized_unsigned = true},
     {.name = "COLOR_0", .types = {"VEC3", "VEC4"}, .normalized_u8_u16 = true},
 };
 
@@ -34,8 +42,8 @@ public:
     GltfGeometry(const GltfData& data, Scene& scene, const GltfLimits& limits, std::uint64_t source_bytes,
                  bool quantization)
         : data_(data), scene_(scene), quantization_(quantization) {
-        budget_ = std::min(limits.max_geometry_bytes,
-                           (std::uint64_t{16} << 20u) + source_bytes * limits.max_geometry_growth);
+        budget_ =
+            std::min(limits.max_geometry_bytes, (std::uint64_t{16} << 20u) + source_bytes * limits.max_geometry_growth);
     }
 
     /// Appends the primitive to the scene's meshes; false, with a warning, where it has nothing that can be drawn.
@@ -143,6 +151,7 @@ private:
     std::vector<std::uint32_t> read_corners(const GltfValue& primitive, std::uint64_t vertices, std::uint64_t mode) {
         const bool indexed = primitive.has("indices");
         std::optional<GltfReader> reader;
+        std::uint32_t restart = 0xFFFFFFFFu;  // the largest value of the indices' type: graphics APIs restart there
         if (indexed) {
             const GltfAccessor& found = data_.accessors()[primitive.integer("indices")];
             const bool is_unsigned = found.component == GltfComponent::u8 || found.component == GltfComponent::u16 ||
@@ -156,6 +165,7 @@ private:
                 primitive["indices"].fail("the accessor has a byteStride of " +
                                           std::to_string(data_.view(found.view).stride) + ", indices have none");
             reader.emplace(data_, found);
+            restart >>= 32 - 8 * gltf_size(found.component);
         }
         const std::uint64_t count = reader ? reader->size() : vertices;
         if (vertices > 0xFFFFFFFFu || count > 0xFFFFFFFFu)
@@ -169,9 +179,11 @@ private:
                            std::to_string(budget_) + " bytes for this file");
         const auto corner = [&](std::uint64_t i) {
             const std::uint32_t index = reader ? reader->index(i) : static_cast<std::uint32_t>(i);
-            if (index >= vertices)
-                primitive["indices"].fail("index " + std::to_string(i) + " is " + std::to_string(index) +
-                                          ", the primitive has " + std::to_string(vertices) + " vertices");
+            if (index >= vertices || (reader && index == restart))
+                primitive["indices"].fail(
+                    "index " + std::to_string(i) + " is " + std::to_string(index) +
+                    (reader && index == restart ? ", the value that restarts primitives; the" : ", the") +
+                    " primitive has " + std::to_string(vertices) + " vertices");
             return index;
         };
         // Every index is checked, also those that make no triangle.
@@ -211,20 +223,14 @@ private:
         return sources;
     }
 
-    /// Reads an attribute's used elements; every component must be finite.
+    /// Reads an attribute's used elements; `GltfData` has seen that they are finite.
     template <class T>
     void read(const GltfValue& attributes, const char* name, const std::vector<std::uint32_t>& sources,
               std::vector<T>& values, std::uint32_t width = static_cast<std::uint32_t>(T::length())) const {
         const GltfReader reader(data_, accessor(attributes, name));
         values.resize(sources.size());
         for (std::size_t v = 0; v < sources.size(); ++v)
-            for (std::uint32_t c = 0; c < width; ++c) {
-                const float number = reader.number(sources[v], c);
-                if (!std::isfinite(number))
-                    attributes[name].fail("element " + std::to_string(sources[v]) + " is not finite in component " +
-                                          std::to_string(c));
-                values[v][static_cast<int>(c)] = number;
-            }
+            for (std::uint32_t c = 0; c < width; ++c) values[v][static_cast<int>(c)] = reader.number(sources[v], c);
     }
 
     /// Lengths differ from 1 by rounding and by quantisation; a zero normal gets some direction.
@@ -251,8 +257,7 @@ private:
         read(attributes, "TANGENT", sources, mesh.tangents);
         for (std::size_t v = 0; v < mesh.tangents.size(); ++v) {
             const glm::vec4 t = mesh.tangents[v];
-            mesh.tangents[v] =
-                glm::vec4(unit(glm::vec3(t), any_tangent(mesh.normals[v])), t.w < 0 ? -1.0f : 1.0f);
+            mesh.tangents[v] = glm::vec4(unit(glm::vec3(t), any_tangent(mesh.normals[v])), t.w < 0 ? -1.0f : 1.0f);
         }
     }
     void read_colors(const GltfValue& attributes, const std::vector<std::uint32_t>& sources, Mesh& mesh) const {
@@ -275,9 +280,8 @@ private:
             mesh.tangents[v] = glm::vec4(any_tangent(mesh.normals[v]), 1.0f);
     }
     void check_texture_coordinates(const GltfValue& primitive, const Material& look, const Mesh& mesh) {
-        for (const TextureRef* use :
-             {&look.base_color_texture, &look.metallic_roughness_texture, &look.normal_texture, &look.occlusion_texture,
-              &look.emissive_texture})
+        for (const TextureRef* use : {&look.base_color_texture, &look.metallic_roughness_texture, &look.normal_texture,
+                                      &look.occlusion_texture, &look.emissive_texture})
             if (use->used() && (use->uv_set == 0 ? mesh.uv0 : mesh.uv1).empty()) {
                 warn(primitive, "its material samples texture coordinates that it lacks (TEXCOORD_" +
                                     std::to_string(use->uv_set) + "): (0, 0) is used");

@@ -26,6 +26,14 @@ T gltf_value(Result<T> result) {
     return std::move(*result);
 }
 
+/// A string of the file for a message: one line, of limited length.
+[[nodiscard]] inline std::string gltf_printable(std::string_view text, std::size_t limit = 80) {
+    std::string line(text.substr(0, limit));
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || static_cast<unsigned char>(c) > 0x7E) c = '?';
+    return text.size() > limit ? line + "..." : line;
+}
+
 /// One value of the document and its JSON pointer (RFC 6901).  Invariant: the document outlives it.
 class GltfValue {
 public:
@@ -39,7 +47,9 @@ public:
 
     [[nodiscard]] bool has(const char* key) const { return value_->is_object() && value_->contains(key); }
     [[nodiscard]] GltfValue operator[](const char* key) const { return {(*value_)[key], pointer_ + "/" + escape(key)}; }
-    [[nodiscard]] GltfValue operator[](std::size_t i) const { return {(*value_)[i], pointer_ + "/" + std::to_string(i)}; }
+    [[nodiscard]] GltfValue operator[](std::size_t i) const {
+        return {(*value_)[i], pointer_ + "/" + std::to_string(i)};
+    }
     [[nodiscard]] std::size_t size() const noexcept { return value_->size(); }
 
     /// Members that the schema check has seen; `fallback` where there is none.
@@ -51,20 +61,11 @@ public:
         return has(key) ? (*value_)[key].get<std::string>() : std::string();
     }
 
+    /// `key` as a part of a JSON pointer.
     [[nodiscard]] static std::string escape(std::string_view key) {
         std::string text;
-        for (const char c : key) {
-            if (c == '~')
-                text += "~0";
-            else if (c == '/')
-                text += "~1";
-            else if (static_cast<unsigned char>(c) < 0x20)
-                text += '?';  // a message is one line
-            else
-                text += c;
-            if (text.size() > 80) return text + "...";
-        }
-        return text;
+        for (const char c : key) text += c == '~' ? "~0" : c == '/' ? "~1" : std::string(1, c);
+        return gltf_printable(text);
     }
 
 private:

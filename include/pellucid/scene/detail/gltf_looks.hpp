@@ -74,10 +74,14 @@ private:
         const tinygltf::Sampler& source = model_.samplers[i];
         const auto wrap = [&](int value, const char* key) {
             switch (value) {
-                case 10497: return TextureWrap::repeat;
-                case 33648: return TextureWrap::mirror;
-                case 33071: return TextureWrap::clamp;
-                default: unknown(i, key, value);
+                case 10497:
+                    return TextureWrap::repeat;
+                case 33648:
+                    return TextureWrap::mirror;
+                case 33071:
+                    return TextureWrap::clamp;
+                default:
+                    unknown(i, key, value);
             }
         };
         TextureSampler sampler;
@@ -85,14 +89,27 @@ private:
         sampler.wrap_v = wrap(source.wrapT, "wrapT");
         if (source.magFilter == 9728) sampler.mag = TextureFilter::nearest;
         switch (source.minFilter) {
-            case -1: break;  // the file leaves the choice to us: trilinear
-            case 9728: sampler = with(sampler, TextureFilter::nearest, TextureFilter::nearest, false); break;
-            case 9729: sampler = with(sampler, TextureFilter::linear, TextureFilter::nearest, false); break;
-            case 9984: sampler = with(sampler, TextureFilter::nearest, TextureFilter::nearest, true); break;
-            case 9985: sampler = with(sampler, TextureFilter::linear, TextureFilter::nearest, true); break;
-            case 9986: sampler = with(sampler, TextureFilter::nearest, TextureFilter::linear, true); break;
-            case 9987: break;
-            default: unknown(i, "minFilter", source.minFilter);
+            case -1:
+                break;  // the file leaves the choice to us: trilinear
+            case 9728:
+                sampler = with(sampler, TextureFilter::nearest, TextureFilter::nearest, false);
+                break;
+            case 9729:
+                sampler = with(sampler, TextureFilter::linear, TextureFilter::nearest, false);
+                break;
+            case 9984:
+                sampler = with(sampler, TextureFilter::nearest, TextureFilter::nearest, true);
+                break;
+            case 9985:
+                sampler = with(sampler, TextureFilter::linear, TextureFilter::nearest, true);
+                break;
+            case 9986:
+                sampler = with(sampler, TextureFilter::nearest, TextureFilter::linear, true);
+                break;
+            case 9987:
+                break;
+            default:
+                unknown(i, "minFilter", source.minFilter);
         }
         return sampler;
     }
@@ -133,14 +150,16 @@ private:
     static glm::vec2 pair(const tinygltf::Value& object, const char* key, glm::vec2 fallback) {
         if (!object.Has(key)) return fallback;
         const tinygltf::Value& value = object.Get(key);
-        return {static_cast<float>(value.Get(0).GetNumberAsDouble()), static_cast<float>(value.Get(1).GetNumberAsDouble())};
+        return {static_cast<float>(value.Get(0).GetNumberAsDouble()),
+                static_cast<float>(value.Get(1).GetNumberAsDouble())};
     }
 
     Material material(const tinygltf::Material& source, const GltfValue& value) {
         Material material;
         material.name = source.name;
         const tinygltf::PbrMetallicRoughness& pbr = source.pbrMetallicRoughness;
-        for (int c = 0; c < 4; ++c) material.base_color[c] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
+        for (int c = 0; c < 4; ++c)
+            material.base_color[c] = static_cast<float>(pbr.baseColorFactor[static_cast<std::size_t>(c)]);
         material.metallic = static_cast<float>(pbr.metallicFactor);
         material.roughness = static_cast<float>(pbr.roughnessFactor);
         double strength = 1;
@@ -157,7 +176,7 @@ private:
         else if (source.alphaMode == "MASK")
             material.alpha_mode = AlphaMode::mask;
         else if (source.alphaMode != "OPAQUE")
-            value["alphaMode"].fail("is \"" + GltfValue::escape(source.alphaMode) + "\", none of OPAQUE, MASK, BLEND");
+            value["alphaMode"].fail("is \"" + gltf_printable(source.alphaMode) + "\", none of OPAQUE, MASK, BLEND");
         material.double_sided = source.doubleSided;
         material.unlit = source.extensions.count("KHR_materials_unlit") != 0;
         const std::string& at = value.pointer();

@@ -47,7 +47,8 @@ public:
             }
         if (order.size() != count)
             for (std::size_t n = 0; n < count; ++n)
-                if (parent_[n] >= 0 && depth_[n] == 0) gltf_fail(pointer(n) + ": is its own ancestor, or below such a node");
+                if (parent_[n] >= 0 && depth_[n] == 0)
+                    gltf_fail(pointer(n) + ": is its own ancestor, or below such a node");
         for (std::size_t n = 0; n < count; ++n) static_cast<void>(local(n));
         for (std::size_t i = 0; i < model_.cameras.size(); ++i) static_cast<void>(camera(i));
         for (std::size_t i = 0; i < model_.lights.size(); ++i) static_cast<void>(light(i));
@@ -68,7 +69,8 @@ public:
             glm::dmat4 world_from_parent;
         };
         std::vector<Visit> stack;
-        for (auto root = roots.rbegin(); root != roots.rend(); ++root) stack.push_back({std::size_t(*root), glm::dmat4(1.0)});
+        for (auto root = roots.rbegin(); root != roots.rend(); ++root)
+            stack.push_back({std::size_t(*root), glm::dmat4(1.0)});
         while (!stack.empty()) {
             const Visit visit = stack.back();
             stack.pop_back();
@@ -129,7 +131,8 @@ private:
     void place_node(std::size_t n, const glm::dmat4& world) {
         const tinygltf::Node& node = model_.nodes[n];
         if (node.mesh >= 0)
-            for (const std::uint32_t mesh : primitives_[std::size_t(node.mesh)]) scene_.instances.push_back({mesh, world});
+            for (const std::uint32_t mesh : primitives_[std::size_t(node.mesh)])
+                scene_.instances.push_back({mesh, world});
         if (node.camera >= 0) {
             Camera placed = camera(std::size_t(node.camera));
             if (placed.name.empty()) placed.name = node.name;
@@ -197,8 +200,7 @@ private:
         const std::string place = "/extensions/KHR_lights_punctual/lights/" + std::to_string(i);
         Light light;
         light.name = source.name;
-        for (std::size_t c = 0; c < source.color.size(); ++c)
-            light.color[int(c)] = static_cast<float>(source.color[c]);
+        for (std::size_t c = 0; c < source.color.size(); ++c) light.color[int(c)] = static_cast<float>(source.color[c]);
         light.intensity = static_cast<float>(source.intensity);
         light.range = static_cast<float>(source.range);
         if (source.type == "directional") {
@@ -212,8 +214,7 @@ private:
                 gltf_fail(place + "/spot: innerConeAngle " + std::to_string(light.inner_cone) +
                           " must be below outerConeAngle " + std::to_string(light.outer_cone));
         } else if (source.type != "point") {
-            gltf_fail(place + "/type: is \"" + GltfValue::escape(source.type) +
-                      "\", none of directional, point, spot");
+            gltf_fail(place + "/type: is \"" + gltf_printable(source.type) + "\", none of directional, point, spot");
         }
         return light;
     }

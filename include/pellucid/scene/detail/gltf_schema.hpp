@@ -11,16 +11,60 @@
 namespace pellucid::detail {
 
 enum class GltfObject : std::uint8_t {
-    root, asset, accessor, sparse, sparse_indices, sparse_values, buffer, buffer_view, image, texture, sampler, use,
-    normal_use, occlusion_use, material, metallic_roughness, mesh, primitive, camera, perspective, orthographic, node,
-    scene, animation, channel, target, animation_sampler, skin, root_extensions, lights, light, spot, node_extensions,
-    node_light, material_extensions, emissive_strength, use_extensions, transform, empty
+    root,
+    asset,
+    accessor,
+    sparse,
+    sparse_indices,
+    sparse_values,
+    buffer,
+    buffer_view,
+    image,
+    texture,
+    sampler,
+    use,
+    normal_use,
+    occlusion_use,
+    material,
+    metallic_roughness,
+    mesh,
+    primitive,
+    camera,
+    perspective,
+    orthographic,
+    node,
+    scene,
+    animation,
+    channel,
+    target,
+    animation_sampler,
+    skin,
+    root_extensions,
+    lights,
+    light,
+    spot,
+    node_extensions,
+    node_light,
+    material_extensions,
+    emissive_strength,
+    use_extensions,
+    transform,
+    empty
 };
 
 enum class GltfKind : std::uint8_t {
-    boolean, integer, number, text, object, index,     ///< one value
-    numbers, texts, objects, indices,                  ///< an array of them
-    index_map, index_maps                              ///< an object whose values are indices; an array of those
+    boolean,
+    integer,
+    number,
+    text,
+    object,
+    index,  ///< one value
+    numbers,
+    texts,
+    objects,
+    indices,  ///< an array of them
+    index_map,
+    index_maps  ///< an object whose values are indices; an array of those
 };
 
 /// What the value of a member must be.
@@ -28,7 +72,7 @@ struct GltfRule {
     bool required = false;
     double low = -std::numeric_limits<double>::infinity();  ///< of numbers, inclusive
     double high = std::numeric_limits<double>::infinity();
-    std::size_t count = 0;                                  ///< of arrays: fewest values
+    std::size_t count = 0;  ///< of arrays: fewest values
     std::size_t most = std::numeric_limits<std::size_t>::max();
     GltfObject child = GltfObject::empty;  ///< of `object` and `objects`
     const char* table = nullptr;           ///< of indices: the root's array they point into
@@ -208,7 +252,8 @@ public:
                 value.fail("lacks the required member \"" + std::string(member.key) + "\"");
         }
         Json& json = value.json();
-        for (auto item = json.begin(); item != json.end();) item = names(object, item.key()) ? ++item : json.erase(item);
+        for (auto item = json.begin(); item != json.end();)
+            item = names(object, item.key()) ? ++item : json.erase(item);
     }
 
 private:
@@ -244,8 +289,7 @@ private:
         Json& json = value.json();
         if (json.is_number_float()) {
             const double number = json.get<double>();
-            if (std::floor(number) == number && std::abs(number) <= gltf_huge)
-                json = static_cast<std::int64_t>(number);
+            if (std::floor(number) == number && std::abs(number) <= gltf_huge) json = static_cast<std::int64_t>(number);
         }
         if (!json.is_number_integer()) value.fail("must be an integer, is " + describe(json));
         check_range(value, json.get<double>(), member);
@@ -275,26 +319,40 @@ private:
             case GltfKind::text:
                 if (!json.is_string()) value.fail("must be a string, is " + describe(json));
                 return;
-            case GltfKind::integer: return check_integer(value, member);
-            case GltfKind::number: return check_number(value, member);
-            case GltfKind::object: return check(value, member.rule.child);
-            case GltfKind::index: return check_index(value, member);
-            case GltfKind::index_map: return check_index_map(value, member);
-            default: break;
+            case GltfKind::integer:
+                return check_integer(value, member);
+            case GltfKind::number:
+                return check_number(value, member);
+            case GltfKind::object:
+                return check(value, member.rule.child);
+            case GltfKind::index:
+                return check_index(value, member);
+            case GltfKind::index_map:
+                return check_index_map(value, member);
+            default:
+                break;
         }
         if (!json.is_array()) value.fail("must be an array, is " + describe(json));
         if (json.size() < member.rule.count || json.size() > member.rule.most)
-            value.fail("has " + std::to_string(json.size()) + " values, must have " + std::to_string(member.rule.count) +
-                       (member.rule.most > member.rule.count ? " or more" : ""));
+            value.fail("has " + std::to_string(json.size()) + " values, must have " +
+                       std::to_string(member.rule.count) + (member.rule.most > member.rule.count ? " or more" : ""));
         for (std::size_t i = 0; i < json.size(); ++i) {
             switch (member.kind) {
-                case GltfKind::numbers: check_number(value[i], member); break;
+                case GltfKind::numbers:
+                    check_number(value[i], member);
+                    break;
                 case GltfKind::texts:
                     if (!json[i].is_string()) value[i].fail("must be a string, is " + describe(json[i]));
                     break;
-                case GltfKind::objects: check(value[i], member.rule.child); break;
-                case GltfKind::indices: check_index(value[i], member); break;
-                default: check_index_map(value[i], member); break;
+                case GltfKind::objects:
+                    check(value[i], member.rule.child);
+                    break;
+                case GltfKind::indices:
+                    check_index(value[i], member);
+                    break;
+                default:
+                    check_index_map(value[i], member);
+                    break;
             }
         }
     }

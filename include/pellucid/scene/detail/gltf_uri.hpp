@@ -12,7 +12,9 @@
 
 namespace pellucid::detail {
 
-[[nodiscard]] inline bool is_data_uri(std::string_view uri) noexcept { return uri.substr(0, 5) == "data:"; }
+[[nodiscard]] inline bool is_data_uri(std::string_view uri) noexcept {
+    return uri.substr(0, 5) == "data:";
+}
 
 /// RFC 4648 base64, padding optional; nothing where a character is outside the alphabet or the length is impossible.
 [[nodiscard]] inline std::optional<std::vector<std::byte>> decode_base64(std::string_view text) {
@@ -45,40 +47,50 @@ namespace pellucid::detail {
     return bytes;
 }
 
-/// The content of a base64 data URI; nothing where it is not one.
+/// `text` with its percent escapes (RFC 3986) replaced; nothing where one is broken.
+[[nodiscard]] inline std::optional<std::string> decode_percent(std::string_view text) {
+    const auto digit = [&](std::size_t at) {
+        const char c = at < text.size() ? text[at] : ' ';
+        if (c >= '0' && c <= '9') return c - '0';
+        if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+        return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    };
+    std::string plain;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] != '%') {
+            plain += text[i];
+            continue;
+        }
+        const int high = digit(i + 1), low = digit(i + 2);
+        if (high < 0 || low < 0) return std::nullopt;
+        plain += static_cast<char>(high * 16 + low);
+        i += 2;
+    }
+    return plain;
+}
+
+/// The content of a data URI (RFC 2397): base64 where it says so, else percent-encoded; nothing where it is broken.
 [[nodiscard]] inline std::optional<std::vector<std::byte>> decode_data_uri(std::string_view uri) {
     const std::size_t comma = uri.find(',');
+    if (!is_data_uri(uri) || comma == std::string_view::npos) return std::nullopt;
     constexpr std::string_view mark = ";base64";
-    if (!is_data_uri(uri) || comma == std::string_view::npos || comma < mark.size() ||
-        uri.substr(comma - mark.size(), mark.size()) != mark)
-        return std::nullopt;
-    return decode_base64(uri.substr(comma + 1));
+    const std::string_view head = uri.substr(0, comma), body = uri.substr(comma + 1);
+    if (head.size() >= mark.size() && head.substr(head.size() - mark.size()) == mark) return decode_base64(body);
+    const auto plain = decode_percent(body);
+    if (!plain) return std::nullopt;
+    const auto* bytes = reinterpret_cast<const std::byte*>(plain->data());
+    return std::vector<std::byte>(bytes, bytes + plain->size());
 }
 
 /// The path that a relative address names from `folder`; nothing for an absolute one, one with a scheme, an empty one
 /// or one with a broken escape.
 [[nodiscard]] inline std::optional<std::string> resolve_uri(std::string_view uri, const std::filesystem::path& folder) {
-    std::string path;
-    for (std::size_t i = 0; i < uri.size(); ++i) {
-        if (uri[i] != '%') {
-            path += uri[i];
-            continue;
-        }
-        const auto digit = [&](std::size_t at) {
-            const char c = at < uri.size() ? uri[at] : ' ';
-            return c >= '0' && c <= '9' ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-        };
-        const int high = digit(i + 1), low = digit(i + 2);
-        if (high < 0 || low < 0 || high * 16 + low == 0) return std::nullopt;
-        path += static_cast<char>(high * 16 + low);
-        i += 2;
-    }
+    const auto path = decode_percent(uri);
     // A colon before the first slash ends a scheme.
     const std::size_t colon = uri.find(':');
-    const bool scheme = colon != std::string_view::npos && uri.find('/') > colon;
-    if (path.empty() || scheme || path.find('\0') != std::string::npos || path.front() == '/' || path.front() == '\\')
-        return std::nullopt;
-    return (folder / path).string();
+    if (!path || path->empty() || (colon != std::string_view::npos && uri.find('/') > colon)) return std::nullopt;
+    if (path->find('\0') != std::string::npos || path->front() == '/' || path->front() == '\\') return std::nullopt;
+    return (folder / *path).string();
 }
 
 }  // namespace pellucid::detail

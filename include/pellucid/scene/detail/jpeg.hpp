@@ -74,7 +74,8 @@ inline bool jpeg_read_rows(JpegState& state, Image8& image) {
     return true;
 }
 
-inline Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& name, const ImageLimits& limits) {
+inline Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::string& name,
+                                  const ImageLimits& limits) {
     JpegState state;
     state.max_scans = limits.max_scans;
     const auto damaged = [&] {

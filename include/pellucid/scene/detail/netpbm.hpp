@@ -12,8 +12,8 @@ namespace pellucid::detail {
 struct NetpbmHeader {
     std::string_view kind;  ///< "P5", "PF", "Pf"
     Extent2D size;
-    float number = 0;       ///< PGM: largest value; PFM: scale, negative for little-endian
-    std::size_t data = 0;   ///< [B] where the texels start
+    float number = 0;      ///< PGM: largest value; PFM: scale, negative for little-endian
+    std::size_t data = 0;  ///< [B] where the texels start
 };
 
 inline Result<NetpbmHeader> read_netpbm_header(std::string_view text, const std::string& path,
@@ -42,8 +42,8 @@ inline Result<NetpbmHeader> read_netpbm_header(std::string_view text, const std:
         std::uint64_t{header.size.width} * header.size.height * 4 > limits.max_bytes)
         return Error{Errc::parse, path + ": " + std::to_string(header.size.width) + " x " +
                                       std::to_string(header.size.height) + " texels is outside 1 to " +
-                                      std::to_string(limits.max_side) + " a side, " +
-                                      std::to_string(limits.max_bytes) + " bytes in all"};
+                                      std::to_string(limits.max_side) + " a side, " + std::to_string(limits.max_bytes) +
+                                      " bytes in all"};
     header.data = at + 1;
     return header;
 }

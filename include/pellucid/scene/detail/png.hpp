@@ -14,11 +14,11 @@ namespace pellucid::detail {
 struct PngState {
     png_structp png = nullptr;
     png_infop info = nullptr;
-    std::span<const std::byte> input;    ///< what is still to be read
+    std::span<const std::byte> input;  ///< what is still to be read
     std::vector<std::byte>* output = nullptr;
-    std::string message;                 ///< libpng's error
+    std::string message;  ///< libpng's error
     std::vector<png_bytep> rows;
-    std::vector<std::uint16_t> wide;     ///< `[h, w, 4]` of a 16-bit file
+    std::vector<std::uint16_t> wide;  ///< `[h, w, 4]` of a 16-bit file
     bool writing = false;
 
     explicit PngState(bool writes) : writing(writes) {}
@@ -95,8 +95,8 @@ inline Result<Image8> decode_png(std::span<const std::byte> bytes, const std::st
     if (wide) state.wide.resize(texels * 4);
     state.rows.resize(size.height);
     for (std::uint32_t y = 0; y < size.height; ++y)
-        state.rows[y] = wide ? reinterpret_cast<png_bytep>(state.wide.data() + std::size_t{y} * size.width * 4)
-                             : image.texel(0, y);
+        state.rows[y] =
+            wide ? reinterpret_cast<png_bytep>(state.wide.data() + std::size_t{y} * size.width * 4) : image.texel(0, y);
     if (!png_read_rows(state)) return damaged();
     // v / 257 to the nearest integer: 65535 = 255 * 257, so 8-bit values that were widened come back exactly.
     for (std::size_t i = 0; i < state.wide.size(); ++i)
