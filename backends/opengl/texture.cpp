@@ -43,7 +43,7 @@ Result<void> check(const rhi::TextureDesc& desc, const rhi::DeviceInfo& limits) 
         return wrong(Errc::invalid_argument, text("is a cube of %u layers and %u×%u texels; it needs 6 square ones",
                                                   desc.layers, width, height));
     if (has(desc.usage, rhi::TextureUsage::storage) && !format.storage)
-        return wrong(Errc::unsupported,
+        return wrong(Errc::invalid_argument,
                      text("is for storage; the format %s cannot be stored to by shaders", format.name));
     if (!desc.initial.empty() && desc.initial.size() != all_texels_bytes(desc))
         return wrong(Errc::invalid_argument,
