@@ -60,8 +60,8 @@ private:
 
 /// [ns] of one frame.
 struct FrameTime {
-    double record = 0;  ///< from before the wait for a free command list to after the last recorded command
-    double total = 0;   ///< record, submission, and waiting until the GPU is done
+    double record = 0;  ///< from before the wait for a free command list to after the end of the render pass
+    double total = 0;   ///< and the copy, the submission and the wait until the GPU is done
 };
 
 /// One implementation of the frame, with everything made before the first one.

@@ -80,11 +80,12 @@ public:
                 break;
         }
         c.end_render();
+        const double recorded = now_ns();
+
         c.begin_copy({.uses = {rhi::use(target_, rhi::Access::copy_read), rhi::use(readback_, rhi::Access::copy_write)},
                       .name = "readback"});
         c.copy(target_, readback_, rhi::TextureCopy{});
         c.end_copy();
-        const double recorded = now_ns();
         PELLUCID_TRY(const rhi::Ticket ticket, device_.submit());
         PELLUCID_CHECK(device_.wait(ticket));
         const double done = now_ns();

@@ -159,9 +159,10 @@ public:
             else
                 record_draws(to, matrices);
         }
+        const double recorded = now_ns();
+
         glGetTextureSubImage(target_, 0, 0, 0, 0, target_size, target_size, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                              static_cast<GLsizei>(picture_.size()), nullptr);
-        const double recorded = now_ns();
         glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
         fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
         if (!wait(fences_[slot])) return lost();

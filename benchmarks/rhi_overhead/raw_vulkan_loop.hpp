@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// The raw Vulkan loop's objects; only its own two source files include this.
+#include <pellucid/rhi/shader.hpp>
 #include <pellucid/vulkan/vulkan.hpp>
 #include <string>
 #include "rhi_overhead/loop.hpp"
