@@ -62,8 +62,9 @@ public:
         auto& c = *commands;
         PELLUCID_TRY(const rhi::UniformSlice uniforms, c.upload_uniforms(rhi::bytes_of(uniforms_)));
         rhi::RecordSlice records;
-        if (variant != Variant::push)
+        if (variant != Variant::push) {
             PELLUCID_TRY(records, c.upload_records(static_cast<std::uint32_t>(matrices.size()), record_stride));
+        }
         c.begin_render({.colors = {{.texture = target_}}, .size = {target_size, target_size}, .name = "draws"});
         c.bind_pipeline(variant == Variant::push ? push_pipeline_ : record_pipeline_);
         c.bind_frame(uniforms, records);
