@@ -50,9 +50,9 @@ public:
     [[nodiscard]] std::span<const DrawMatrix> matrices(std::uint64_t frame) const noexcept {
         return matrices_[frame % 2];
     }
-    /// Whether `rgba` ([64, 64, 4] bytes, row 0 at the top) is the picture of that frame; the error says which texel
-    /// is wrong.
-    [[nodiscard]] static Result<void> check(std::span<const std::byte> rgba, std::uint64_t frame);
+    /// Whether `rgba` ([64, 64, 4] bytes, row 0 at the top) is the picture of that frame, or an empty one where nothing
+    /// was `drawn`; the error says which texel is wrong.
+    [[nodiscard]] static Result<void> check(std::span<const std::byte> rgba, std::uint64_t frame, bool drawn);
 
 private:
     std::vector<DrawMatrix> matrices_[2];

@@ -42,7 +42,7 @@ struct Ring {
     for (const DrawMatrix& matrix : matrices) {
         std::memcpy(to, &matrix, sizeof matrix);
         to += record_stride;
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, 3, GL_UNSIGNED_INT, nullptr, 1, record++);
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, 3, GL_UNSIGNED_INT, nullptr, 1, 0, record++);
     }
 }
 [[gnu::noinline]] void record_pushes(const Ring& ring, GLsizeiptr at, GLsizeiptr step,
@@ -51,7 +51,7 @@ struct Ring {
         std::memcpy(ring.memory + at, &matrix, sizeof matrix);
         glBindBufferRange(GL_UNIFORM_BUFFER, PELLUCID_BIND_PUSH, ring.buffer, at, sizeof matrix);
         at += step;
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, 1, 0);
     }
 }
 

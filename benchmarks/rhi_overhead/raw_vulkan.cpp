@@ -137,7 +137,7 @@ Result<FrameTime> RawVulkan::frame(const Workload& workload, std::uint64_t numbe
                                .pCommandBufferInfos = &commands,
                                .signalSemaphoreInfoCount = 1,
                                .pSignalSemaphoreInfos = &signal};
-    RAW_VK(vk_.QueueSubmit2(owner_.native_queue(), 1, &submit, VK_NULL_HANDLE));
+    RAW_VK(vk_.QueueSubmit2(native_.queue, 1, &submit, VK_NULL_HANDLE));
     PELLUCID_CHECK(wait(frame.done));
     const double done = now_ns();
     return FrameTime{recorded - start, done - start};
