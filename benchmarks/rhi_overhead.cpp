@@ -60,7 +60,7 @@ int fail(const Error& error) {
 
 Result<void> run_all(int argc, char** argv) {
     Options options(
-        {{"backend", "both"}, {"device", ""}, {"draws", "10000"}, {"rounds", "31"}, {"frames", "5"}, {"json", ""}};
+        {{"backend", "both"}, {"device", ""}, {"draws", "10000"}, {"rounds", "31"}, {"frames", "5"}, {"json", ""}});
     PELLUCID_CHECK(options.parse(argc, argv));
     Settings settings;
     PELLUCID_TRY(settings.draws, options.number("draws", 1, 1000000));

@@ -33,7 +33,7 @@ std::string to_markdown(const std::vector<ApiResult>& results, const Settings& s
         "medians of each round's own; own cost: record - raw with empty functions in place of the driver's draws\n";
     for (const ApiResult& api : results) {
         out += "\n### " + api.device.backend + ": " + api.device.name + ", " + api.device.driver + "\n\n";
-        MarkdownTable table({"draw", "loop", "record", "record + submit + wait", "x raw", "record - raw",
+        MarkdownTable table({"draw", "loop", "record", "record + submit + wait", "x raw", "record - raw", "own cost",
                              "API calls a frame", "allocations a frame"});
         std::string verdicts;
         for (const VariantResult& result : api.variants) {
