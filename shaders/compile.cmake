@@ -36,6 +36,8 @@ string(REGEX REPLACE "#line [^\n]*" "" text "${text}")
 string(REGEX REPLACE "[ \t]+\n" "\n" text "${text}")
 string(REGEX REPLACE "\n[ \t\n]*\n" "\n" text "${text}")
 string(REGEX REPLACE "\n  +" "\n " text "${text}")
+string(STRIP "${text}" text)  # it starts with "#version": a loader writes behind that line
+string(APPEND text "\n")
 
 # glslang's dependency file names its own output; the build waits for ours.
 file(READ ${OUTPUT}.d dependencies)

@@ -9,15 +9,17 @@ namespace pellucid::opengl {
 Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
     PELLUCID_CHECK(enter());
     if (desc.size == 0)
-        return Error{Errc::invalid_argument, text("The buffer '%s' has size 0; it needs at least 1 byte", desc.debug_name)};
+        return Error{Errc::invalid_argument,
+                     text("The buffer '%s' has size 0; it needs at least 1 byte", desc.debug_name)};
     if (desc.initial.size() > desc.size)
-        return Error{Errc::invalid_argument, text("The buffer '%s' of %llu bytes gets %zu initial bytes", desc.debug_name,
-                                                  static_cast<unsigned long long>(desc.size), desc.initial.size())};
+        return Error{Errc::invalid_argument,
+                     text("The buffer '%s' of %llu bytes gets %zu initial bytes", desc.debug_name,
+                          static_cast<unsigned long long>(desc.size), desc.initial.size())};
     if (has(desc.usage, rhi::BufferUsage::storage) && desc.size > info_.max_storage_buffer_bytes)
-        return Error{Errc::unsupported, text("The buffer '%s' has %llu bytes; %s takes at most %llu in a storage block",
-                                             desc.debug_name, static_cast<unsigned long long>(desc.size),
-                                             info_.name.c_str(),
-                                             static_cast<unsigned long long>(info_.max_storage_buffer_bytes))};
+        return Error{Errc::unsupported,
+                     text("The buffer '%s' has %llu bytes; %s takes at most %llu in a storage block", desc.debug_name,
+                          static_cast<unsigned long long>(desc.size), info_.name.c_str(),
+                          static_cast<unsigned long long>(info_.max_storage_buffer_bytes))};
 
     GLbitfield map = 0, storage = 0;
     if (desc.memory != rhi::Memory::device) {
@@ -44,13 +46,15 @@ Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
         ok = glGetError() == GL_NO_ERROR;
     }
     if (ok && map) {
-        made.map = static_cast<std::byte*>(glMapNamedBufferRange(made.name, 0, static_cast<GLsizeiptr>(desc.size), map));
+        made.map =
+            static_cast<std::byte*>(glMapNamedBufferRange(made.name, 0, static_cast<GLsizeiptr>(desc.size), map));
         ok = made.map != nullptr;
     }
     if (!ok) {
         glDeleteBuffers(1, &made.name);
-        return Error{Errc::out_of_memory, text("No memory for the buffer '%s' of %llu bytes: free buffers or make it smaller",
-                                               desc.debug_name, static_cast<unsigned long long>(desc.size))};
+        return Error{Errc::out_of_memory,
+                     text("No memory for the buffer '%s' of %llu bytes: free buffers or make it smaller",
+                          desc.debug_name, static_cast<unsigned long long>(desc.size))};
     }
     label(GL_BUFFER, made.name, desc.debug_name);
     return objects_.buffers.insert(made);

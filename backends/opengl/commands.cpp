@@ -64,7 +64,8 @@ void Commands::fail(Error error) {
 }
 
 void Commands::fail_memory(const char* where) {
-    fail({Errc::out_of_memory, text("The frame's ring could not grow in %s: free memory or upload less in a frame", where)});
+    fail({Errc::out_of_memory,
+          text("The frame's ring could not grow in %s: free memory or upload less in a frame", where)});
 }
 
 // ---------------------------------------------------------------------------------------------------- passes
@@ -192,7 +193,9 @@ void Commands::begin_compute(const rhi::ComputePassDesc& desc) {
     mark(desc.uses);
 }
 
-void Commands::end_compute() { end_pass(); }
+void Commands::end_compute() {
+    end_pass();
+}
 
 void Commands::begin_copy(const rhi::CopyPassDesc& desc) {
     begin_pass(desc.name);
@@ -234,7 +237,8 @@ void Commands::bind_other_group(rhi::Group group) {
                 glBindTextures(run.first, run.count, names);
                 glBindSamplers(run.first, run.count, object.samplers + run.at);
                 break;
-            case rhi::BindingKind::storage_texture: break;  // below: multi-bind cannot name a level
+            case rhi::BindingKind::storage_texture:
+                break;  // below: multi-bind cannot name a level
         }
     }
     for (const ImageBind& image : object.images)

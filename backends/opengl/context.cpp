@@ -66,8 +66,7 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
         return Error{Errc::unsupported, text("a driver that starts: eglInitialize failed on the %s with error 0x%x",
                                              adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
     const char* extensions = eglQueryString(adapter.display, EGL_EXTENSIONS);
-    for (const char* needed :
-         {"EGL_KHR_create_context", "EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"})
+    for (const char* needed : {"EGL_KHR_create_context", "EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"})
         if (!has_word(extensions, needed)) return Error{Errc::unsupported, needed};
 
     eglBindAPI(EGL_OPENGL_API);
@@ -79,7 +78,8 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
         const bool reset = attempt == 0;
         const bool no_error = !validation && can_skip_errors && attempt < 2;
         if (reset && !can_tell_reset) continue;
-        EGLint attributes[16] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
+        EGLint attributes[16] = {EGL_CONTEXT_MAJOR_VERSION,       4,
+                                 EGL_CONTEXT_MINOR_VERSION,       5,
                                  EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT};
         std::size_t n = 6;
         auto add = [&](EGLint key, EGLint value) { attributes[n++] = key, attributes[n++] = value; };
@@ -97,8 +97,9 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
     made->display_ = adapter.display;
     made->serial_ = ++serials;
     if (!made->make_current())
-        return Error{Errc::unsupported, text("a context without a surface: eglMakeCurrent failed on the %s with error 0x%x",
-                                             adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
+        return Error{Errc::unsupported,
+                     text("a context without a surface: eglMakeCurrent failed on the %s with error 0x%x",
+                          adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
     return made;
 }
 

@@ -68,7 +68,9 @@ void Commands::fill(rhi::Buffer destination, std::uint64_t offset, std::uint64_t
                               static_cast<GLsizeiptr>(size), GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
-void Commands::generate_mips(rhi::Texture texture) { glGenerateTextureMipmap(objects_->textures[texture].name); }
+void Commands::generate_mips(rhi::Texture texture) {
+    glGenerateTextureMipmap(objects_->textures[texture].name);
+}
 
 Result<rhi::UniformSlice> Commands::upload_uniforms(std::span<const std::byte> bytes) {
     if (bytes.empty() || bytes.size() > max_uniform_slice)

@@ -91,7 +91,9 @@ Found probe(const Adapter& adapter, bool validation) {
     return found;
 }
 
-bool same_device(const rhi::DeviceInfo& a, const rhi::DeviceInfo& b) { return a.name == b.name && a.driver == b.driver; }
+bool same_device(const rhi::DeviceInfo& a, const rhi::DeviceInfo& b) {
+    return a.name == b.name && a.driver == b.driver;
+}
 
 void debug_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
                    const void* user) {
@@ -161,8 +163,8 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
             continue;
         }
         if (!found.info.missing.empty())
-            return Error{Errc::unsupported, text("The OpenGL device '%s' lacks %s", found.info.name.c_str(),
-                                                 found.info.missing.c_str())};
+            return Error{Errc::unsupported,
+                         text("The OpenGL device '%s' lacks %s", found.info.name.c_str(), found.info.missing.c_str())};
         std::unique_ptr<Device> device(new Device);
         device->info_ = std::move(found.info);
         device->context_ = std::move(found.context);
@@ -238,9 +240,10 @@ void Device::label(GLenum kind, GLuint name, const char* debug_name) const {
 Result<void> Device::enter() {
     if (lost_) return lost_error();
     if (context_->enter()) return {};
-    return Error{Errc::invalid_argument, text("The OpenGL device '%s' is in use on another thread: it belongs to the one "
-                                              "that made it",
-                                              info_.name.c_str())};
+    return Error{Errc::invalid_argument,
+                 text("The OpenGL device '%s' is in use on another thread: it belongs to the one "
+                      "that made it",
+                      info_.name.c_str())};
 }
 
 }  // namespace pellucid::opengl

@@ -7,7 +7,8 @@
 namespace pellucid::opengl {
 
 Error Device::lost_error() const {
-    return {Errc::device_lost, text("The OpenGL device '%s' was reset: destroy it and make a new one", info_.name.c_str())};
+    return {Errc::device_lost,
+            text("The OpenGL device '%s' was reset: destroy it and make a new one", info_.name.c_str())};
 }
 
 Result<Commands*> Device::begin_frame() {
@@ -61,9 +62,9 @@ Result<void> Device::wait(rhi::Ticket ticket) {
     PELLUCID_CHECK(enter());
     const auto number = static_cast<std::uint64_t>(ticket);
     if (number > submitted_)
-        return Error{Errc::invalid_argument, text("wait got the ticket %llu; the last one submitted is %llu",
-                                                  static_cast<unsigned long long>(number),
-                                                  static_cast<unsigned long long>(submitted_))};
+        return Error{Errc::invalid_argument,
+                     text("wait got the ticket %llu; the last one submitted is %llu",
+                          static_cast<unsigned long long>(number), static_cast<unsigned long long>(submitted_))};
     if (number <= completed_) return {};
     for (Fence& fence : fences_)
         if (fence.ticket == number) return wait_for(fence);

@@ -127,8 +127,8 @@ Result<rhi::Group> Device::make_group(const rhi::GroupDesc& desc) {
             if (!sampler) return wrong(text("has no living sampler at binding %u", binding));
             made.names[i] = texture->name;
             // An integer texture under a filtering sampler is incomplete in OpenGL: even texelFetch would read nothing.
-            made.samplers[i] = rhi::info(texture->format).kind == rhi::NumericKind::uint ? sampler->nearest_name
-                                                                                         : sampler->name;
+            made.samplers[i] =
+                rhi::info(texture->format).kind == rhi::NumericKind::uint ? sampler->nearest_name : sampler->name;
         }
         BindRun* last = made.runs.empty() ? nullptr : &made.runs[made.runs.size() - 1];
         if (last && last->kind == kind && last->first + last->count == binding)

@@ -35,9 +35,9 @@ struct Quiet {
 /// The text with `#define PELLUCID_SPEC_<id> <value>u` behind its #version line, for every constant.
 std::string specialised(const rhi::Shader& shader, std::span<const rhi::SpecConstant> given) {
     // The built SPIR-V of the same source knows the defaults of what is not given.
-    const std::vector<rhi::SpecConstant> constants =
-        shader.gl_spirv.empty() ? std::vector<rhi::SpecConstant>(given.begin(), given.end())
-                                : merged_constants(declared_constants(shader.gl_spirv), given);
+    const std::vector<rhi::SpecConstant> constants = shader.gl_spirv.empty()
+                                                         ? std::vector<rhi::SpecConstant>(given.begin(), given.end())
+                                                         : merged_constants(declared_constants(shader.gl_spirv), given);
     std::string out(shader.gl_text);
     if (constants.empty()) return out;
     std::string defines;
@@ -92,10 +92,10 @@ Result<GLuint> Device::make_program(std::span<const rhi::Shader* const> shaders,
     SmallVector<std::string, 2> texts;
     for (const rhi::Shader* shader : shaders) {
         if (gl_spirv_ ? shader->gl_spirv.empty() : shader->gl_text.empty())
-            return Error{Errc::invalid_argument, text("The pipeline '%s' has the shader '%s' without %s: build it with "
-                                                      "pellucid_add_shader",
-                                                      debug_name, shader->name,
-                                                      gl_spirv_ ? "OpenGL SPIR-V" : "OpenGL text")};
+            return Error{Errc::invalid_argument,
+                         text("The pipeline '%s' has the shader '%s' without %s: build it with "
+                              "pellucid_add_shader",
+                              debug_name, shader->name, gl_spirv_ ? "OpenGL SPIR-V" : "OpenGL text")};
         if (gl_spirv_) continue;
         texts.push_back(specialised(*shader, constants));
         key.add(texts[texts.size() - 1]);

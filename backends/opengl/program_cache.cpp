@@ -75,8 +75,8 @@ void ProgramCache::read() {
     }
     while (!broken && !rest.empty()) {
         EntryHead entry;
-        broken = !take(&entry, sizeof entry) || rest.size() < entry.size ||
-                 checksum(rest.first(entry.size)) != entry.check;
+        broken =
+            !take(&entry, sizeof entry) || rest.size() < entry.size || checksum(rest.first(entry.size)) != entry.check;
         if (broken) break;
         Entry& made = entries_[{entry.key[0], entry.key[1]}];
         made.format = entry.format;
@@ -86,7 +86,8 @@ void ProgramCache::read() {
     if (!broken) return;
     entries_.clear();
     changed_ = true;
-    log_(Severity::warning, text("The pipeline cache '%s' is broken and is ignored: it is written anew", file_.c_str()).c_str());
+    log_(Severity::warning,
+         text("The pipeline cache '%s' is broken and is ignored: it is written anew", file_.c_str()).c_str());
 }
 
 GLuint ProgramCache::load(const ProgramKey& key) {
@@ -140,7 +141,8 @@ void ProgramCache::save() {
         return;
     }
     std::remove(temporary.c_str());
-    log_(Severity::warning, text("The pipeline cache '%s' could not be written: check the folder and its space", file_.c_str()).c_str());
+    log_(Severity::warning,
+         text("The pipeline cache '%s' could not be written: check the folder and its space", file_.c_str()).c_str());
 }
 
 }  // namespace pellucid::opengl

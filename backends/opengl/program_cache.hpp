@@ -2,12 +2,12 @@
 #pragma once
 /// \file
 /// Compiled programs in one file, so that the next start need not compile them.
-#include <pellucid/core/log.hpp>
-#include <pellucid/opengl/calls.hpp>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <pellucid/core/log.hpp>
+#include <pellucid/opengl/calls.hpp>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,8 +26,8 @@ private:
     std::array<std::uint64_t, 2> state_ = {0xCBF29CE484222325u, 0x9E3779B97F4A7C15u};
 };
 
-/// File: "PGL1", the driver's identity, then entries (key, binary format, bytes).  A file of another driver, or a broken
-/// one, is reported and ignored; it is replaced, by rename, when something new was compiled.
+/// File: "PGL1", the driver's identity, then entries (key, binary format, bytes).  A file of another driver, or a
+/// broken one, is reported and ignored; it is replaced, by rename, when something new was compiled.
 class ProgramCache {
 public:
     /// `identity`: renderer and version strings.

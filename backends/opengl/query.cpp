@@ -49,6 +49,8 @@ void Commands::begin_query(rhi::Queries queries, std::uint32_t index) {
     glBeginQuery(GL_SAMPLES_PASSED, objects_->queries[queries].names[index]);
 }
 
-void Commands::end_query(rhi::Queries, std::uint32_t) { glEndQuery(GL_SAMPLES_PASSED); }
+void Commands::end_query(rhi::Queries, std::uint32_t) {
+    glEndQuery(GL_SAMPLES_PASSED);
+}
 
 }  // namespace pellucid::opengl

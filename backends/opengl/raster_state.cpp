@@ -5,19 +5,14 @@ namespace pellucid::opengl {
 namespace {
 
 GLenum gl(rhi::Compare compare) {
-    constexpr GLenum table[] = {GL_NEVER,   GL_LESS,     GL_EQUAL,  GL_LEQUAL,
-                                GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
+    constexpr GLenum table[] = {GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS};
     return table[static_cast<std::size_t>(compare)];
 }
 GLenum gl(rhi::BlendFactor factor) {
-    constexpr GLenum table[] = {GL_ZERO,
-                                GL_ONE,
-                                GL_SRC_ALPHA,
-                                GL_ONE_MINUS_SRC_ALPHA,
-                                GL_DST_ALPHA,
-                                GL_ONE_MINUS_DST_ALPHA,
-                                GL_SRC_COLOR,
-                                GL_ONE_MINUS_SRC_COLOR,
+    constexpr GLenum table[] = {GL_ZERO,      GL_ONE,
+                                GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
+                                GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA,
+                                GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR,
                                 GL_DST_COLOR};
     return table[static_cast<std::size_t>(factor)];
 }
@@ -26,16 +21,17 @@ GLenum gl(rhi::BlendOp op) {
     return table[static_cast<std::size_t>(op)];
 }
 GLenum gl(rhi::StencilFace::Op op) {
-    constexpr GLenum table[] = {GL_KEEP, GL_ZERO,   GL_REPLACE,   GL_INCR,
-                                GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
+    constexpr GLenum table[] = {GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP};
     return table[static_cast<std::size_t>(op)];
 }
 StencilState gl(const rhi::StencilFace& face) {
-    return {.compare = gl(face.compare), .fail = gl(face.fail), .depth_fail = gl(face.depth_fail),
-            .pass = gl(face.pass)};
+    return {
+        .compare = gl(face.compare), .fail = gl(face.fail), .depth_fail = gl(face.depth_fail), .pass = gl(face.pass)};
 }
 
-void enable(GLenum what, bool on) { on ? glEnable(what) : glDisable(what); }
+void enable(GLenum what, bool on) {
+    on ? glEnable(what) : glDisable(what);
+}
 
 void apply_face(GLenum face, const StencilState& wanted, const RasterState& all) {
     glStencilFuncSeparate(face, wanted.compare, all.stencil_reference, all.stencil_read_mask);
@@ -102,8 +98,8 @@ void apply(RasterState& now, const RasterState& wanted) {
     }
     if (now.stencil_test != wanted.stencil_test) enable(GL_STENCIL_TEST, now.stencil_test = wanted.stencil_test);
     if (wanted.stencil_test) {
-        const bool masks = now.stencil_reference != wanted.stencil_reference ||
-                           now.stencil_read_mask != wanted.stencil_read_mask;
+        const bool masks =
+            now.stencil_reference != wanted.stencil_reference || now.stencil_read_mask != wanted.stencil_read_mask;
         now.stencil_reference = wanted.stencil_reference;
         now.stencil_read_mask = wanted.stencil_read_mask;
         if (masks || now.front != wanted.front) apply_face(GL_FRONT, now.front = wanted.front, now);
@@ -122,6 +118,8 @@ void open_depth_masks(RasterState& now) {
     if (now.stencil_write_mask != 0xFF) glStencilMask(now.stencil_write_mask = 0xFF);
 }
 
-void open_color_mask(RasterState& now, std::uint32_t i) { set_color_mask(now, i, 0xF); }
+void open_color_mask(RasterState& now, std::uint32_t i) {
+    set_color_mask(now, i, 0xF);
+}
 
 }  // namespace pellucid::opengl

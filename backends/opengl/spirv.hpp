@@ -2,8 +2,8 @@
 #pragma once
 /// \file
 /// The specialisation constants that a SPIR-V module declares.
-#include <pellucid/rhi/shader.hpp>
 #include <cstdint>
+#include <pellucid/rhi/shader.hpp>
 #include <span>
 #include <vector>
 

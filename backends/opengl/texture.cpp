@@ -35,19 +35,20 @@ Result<void> check(const rhi::TextureDesc& desc, const rhi::DeviceInfo& limits) 
                                              limits.max_array_layers));
     const auto max_mips = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
     if (desc.mips > max_mips)
-        return wrong(Errc::invalid_argument, text("has %u levels; %u×%u texels have at most %u", desc.mips, width, height,
-                                                  max_mips));
+        return wrong(Errc::invalid_argument,
+                     text("has %u levels; %u×%u texels have at most %u", desc.mips, width, height, max_mips));
     if (desc.kind == rhi::TextureKind::flat && desc.layers != 1)
         return wrong(Errc::invalid_argument, text("is flat and has %u layers; make it an array", desc.layers));
     if (desc.kind == rhi::TextureKind::cube && (desc.layers != 6 || width != height))
         return wrong(Errc::invalid_argument, text("is a cube of %u layers and %u×%u texels; it needs 6 square ones",
                                                   desc.layers, width, height));
     if (has(desc.usage, rhi::TextureUsage::storage) && !format.storage)
-        return wrong(Errc::unsupported, text("is for storage; the format %s cannot be stored to by shaders", format.name));
+        return wrong(Errc::invalid_argument,
+                     text("is for storage; the format %s cannot be stored to by shaders", format.name));
     if (!desc.initial.empty() && desc.initial.size() != all_texels_bytes(desc))
-        return wrong(Errc::invalid_argument, text("gets %zu initial bytes; all its levels and layers have %llu",
-                                                  desc.initial.size(),
-                                                  static_cast<unsigned long long>(all_texels_bytes(desc))));
+        return wrong(Errc::invalid_argument,
+                     text("gets %zu initial bytes; all its levels and layers have %llu", desc.initial.size(),
+                          static_cast<unsigned long long>(all_texels_bytes(desc))));
     return {};
 }
 
@@ -60,8 +61,8 @@ void fill_texture(GLuint name, const rhi::TextureDesc& desc) {
         if (desc.kind == rhi::TextureKind::flat)
             glTextureSubImage2D(name, static_cast<GLint>(mip), 0, 0, width, height, format.transfer, format.type, at);
         else
-            glTextureSubImage3D(name, static_cast<GLint>(mip), 0, 0, 0, width, height, static_cast<GLsizei>(desc.layers),
-                                format.transfer, format.type, at);
+            glTextureSubImage3D(name, static_cast<GLint>(mip), 0, 0, 0, width, height,
+                                static_cast<GLsizei>(desc.layers), format.transfer, format.type, at);
         at += std::size_t{desc.layers} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) *
               rhi::info(desc.format).bytes;
     }
@@ -112,10 +113,10 @@ Result<rhi::Texture> Device::make_texture(const rhi::TextureDesc& desc) {
         glTextureStorage2D(made.name, mips, gl_format(desc.format).internal, width, height);
     if (glGetError() != GL_NO_ERROR) {
         glDeleteTextures(1, &made.name);
-        return Error{Errc::out_of_memory, text("No memory for the texture '%s' of %u×%u texels, %u layers, %s (%llu bytes)",
-                                               desc.debug_name, desc.size.width, desc.size.height, desc.layers,
-                                               rhi::info(desc.format).name,
-                                               static_cast<unsigned long long>(all_texels_bytes(desc)))};
+        return Error{Errc::out_of_memory,
+                     text("No memory for the texture '%s' of %u×%u texels, %u layers, %s (%llu bytes)", desc.debug_name,
+                          desc.size.width, desc.size.height, desc.layers, rhi::info(desc.format).name,
+                          static_cast<unsigned long long>(all_texels_bytes(desc)))};
     }
     if (!desc.initial.empty()) {
         commands_.end_transfers();

@@ -135,7 +135,7 @@ TEMPLATE_LIST_TEST_CASE("one layer and one level of a texture can be attached", 
                 const float red = static_cast<float>(mip * 3 + layer) / 255.0f;
                 commands.begin_render(
                     {.colors = {{.texture = texture, .mip = mip, .layer = layer, .clear = {red, 0, 0, 1}}},
-                     .size = {8 >> mip, 4u >> mip},
+                     .size = {8u >> mip, 4u >> mip},
                      .name = "layer"});
                 commands.end_render();
             }

@@ -4,6 +4,7 @@
 /// Recording on OpenGL: every call reaches the driver at once, so "recording" is issuing.  The calls of the inner loop
 /// are inline: the API call and at most three compares.
 #include <pellucid/gpu/bindings.h>
+#include <cstring>
 #include <pellucid/opengl/calls.hpp>
 #include <pellucid/opengl/context.hpp>
 #include <pellucid/opengl/framebuffers.hpp>
@@ -11,7 +12,6 @@
 #include <pellucid/opengl/objects.hpp>
 #include <pellucid/opengl/ring.hpp>
 #include <pellucid/rhi/desc.hpp>
-#include <cstring>
 #include <string>
 
 namespace pellucid::opengl {

@@ -2,10 +2,10 @@
 #pragma once
 /// \file
 /// An OpenGL 4.5 core context without a window or a surface, and which one is current on this thread.
+#include <memory>
 #include <pellucid/core/log.hpp>
 #include <pellucid/core/result.hpp>
 #include <pellucid/opengl/calls.hpp>
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -9,13 +9,13 @@
 ///   (580) lets a living OpenGL context read zeros, without an error, once Vulkan is gone.
 /// - Some drivers finish compiling at the first draw or dispatch of a pipeline, whatever the API promises; draw once
 ///   with each pipeline while loading where that matters.
+#include <deque>
+#include <memory>
 #include <pellucid/core/result.hpp>
 #include <pellucid/opengl/commands.hpp>
 #include <pellucid/opengl/context.hpp>
 #include <pellucid/opengl/objects.hpp>
 #include <pellucid/rhi/desc.hpp>
-#include <deque>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,7 +26,8 @@ class ProgramCache;
 
 class Device {
 public:
-    /// `no_device` where none fits `desc.device` (with what was found), `unsupported` where one lacks what is asked for.
+    /// `no_device` where none fits `desc.device` (with what was found), `unsupported` where one lacks what is asked
+    /// for.
     [[nodiscard]] static Result<std::unique_ptr<Device>> create(const rhi::DeviceDesc& desc);
     /// Hardware first; a device that cannot be used has a `missing`.
     [[nodiscard]] static std::vector<rhi::DeviceInfo> list();

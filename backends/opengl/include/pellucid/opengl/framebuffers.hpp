@@ -2,10 +2,10 @@
 #pragma once
 /// \file
 /// Framebuffer objects, made once for every set of attachments that a pass uses.
-#include <pellucid/opengl/calls.hpp>
-#include <pellucid/opengl/objects.hpp>
 #include <array>
 #include <cstdint>
+#include <pellucid/opengl/calls.hpp>
+#include <pellucid/opengl/objects.hpp>
 #include <unordered_map>
 
 namespace pellucid::opengl {

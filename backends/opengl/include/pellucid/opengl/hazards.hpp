@@ -4,11 +4,11 @@
 /// Which glMemoryBarrier bits a pass needs.  OpenGL orders everything by itself except what shaders store: a later use
 /// of a stored resource needs the bit of *that use*, and a store needs the bit of the store after any earlier use
 /// (glMemoryBarrier also keeps later stores behind earlier reads).
-#include <pellucid/opengl/calls.hpp>
-#include <pellucid/rhi/desc.hpp>
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <pellucid/opengl/calls.hpp>
+#include <pellucid/rhi/desc.hpp>
 
 namespace pellucid::opengl {
 
@@ -21,14 +21,18 @@ struct Touch {
 /// The barrier bits of one use of a buffer (or, with `texture`, of a texture).
 [[nodiscard]] constexpr GLbitfield barrier_bits(rhi::Access access, bool texture) noexcept {
     switch (access) {
-        case rhi::Access::sampled: return GL_TEXTURE_FETCH_BARRIER_BIT;
-        case rhi::Access::uniform_read: return GL_UNIFORM_BARRIER_BIT;
+        case rhi::Access::sampled:
+            return GL_TEXTURE_FETCH_BARRIER_BIT;
+        case rhi::Access::uniform_read:
+            return GL_UNIFORM_BARRIER_BIT;
         case rhi::Access::storage_read:
         case rhi::Access::storage_write:
         case rhi::Access::storage_read_write:
             return texture ? GL_SHADER_IMAGE_ACCESS_BARRIER_BIT : GL_SHADER_STORAGE_BARRIER_BIT;
-        case rhi::Access::index_read: return GL_ELEMENT_ARRAY_BARRIER_BIT;
-        case rhi::Access::indirect_read: return GL_COMMAND_BARRIER_BIT;
+        case rhi::Access::index_read:
+            return GL_ELEMENT_ARRAY_BARRIER_BIT;
+        case rhi::Access::indirect_read:
+            return GL_COMMAND_BARRIER_BIT;
         case rhi::Access::copy_read:
         case rhi::Access::copy_write:
             // Mip generation samples and attaches; copies between textures and buffers are pixel transfers.

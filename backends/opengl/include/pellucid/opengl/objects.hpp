@@ -2,15 +2,15 @@
 #pragma once
 /// \file
 /// What the handles of an OpenGL device name.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
 #include <pellucid/core/handle.hpp>
 #include <pellucid/core/small_vector.hpp>
 #include <pellucid/opengl/calls.hpp>
 #include <pellucid/opengl/hazards.hpp>
 #include <pellucid/opengl/raster_state.hpp>
 #include <pellucid/rhi/desc.hpp>
-#include <cstddef>
-#include <cstdint>
-#include <memory>
 
 namespace pellucid::opengl {
 

@@ -2,10 +2,10 @@
 #pragma once
 /// \file
 /// The fixed-function state of a graphics pipeline in OpenGL's words, and how the context gets from one to another.
-#include <pellucid/opengl/calls.hpp>
-#include <pellucid/rhi/desc.hpp>
 #include <array>
 #include <cstdint>
+#include <pellucid/opengl/calls.hpp>
+#include <pellucid/rhi/desc.hpp>
 
 namespace pellucid::opengl {
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// Memory for data of one frame: persistently mapped blocks, one chain of blocks per frame in flight.  A chain starts at
-/// 1 MiB, grows by doubling, and is written again only when its frame is done.  Nothing is allocated once it has grown.
-#include <pellucid/opengl/calls.hpp>
+/// Memory for data of one frame: persistently mapped blocks, one chain of blocks per frame in flight.  A chain starts
+/// at 1 MiB, grows by doubling, and is written again only when its frame is done.  Nothing is allocated once it has
+/// grown.
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <pellucid/opengl/calls.hpp>
 #include <vector>
 
 namespace pellucid::opengl {
