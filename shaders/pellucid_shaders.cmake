@@ -45,8 +45,10 @@ function(pellucid_add_shader target stem)
     endif()
     foreach(exact IN LISTS variants)
       set(variant ${name})
+      set(note "")
       if(exact)
         set(variant ${name}_exact)
+        set(note " (exact)")
       endif()
       set(output ${folder}/${stem}/${variant}-inl.hpp)
       add_custom_command(OUTPUT ${output}
@@ -54,7 +56,7 @@ function(pellucid_add_shader target stem)
           -DSTAGE=${stage} -DEXACT=${exact} -DOUTPUT=${output} "-DINCLUDES=${includes}" -DGLSLANG=${PELLUCID_GLSLANG}
           -DSPIRV_VAL=$<$<BOOL:${PELLUCID_SPIRV_VAL}>:${PELLUCID_SPIRV_VAL}> -P ${PELLUCID_SHADER_TOOLS}/compile.cmake
         DEPENDS ${source} ${PELLUCID_SHADER_TOOLS}/compile.cmake DEPFILE ${output}.d
-        COMMENT "Shader ${stem}/${base}.${suffix}$<$<BOOL:${exact}>: (exact)>" VERBATIM)
+        COMMENT "Shader ${stem}/${base}.${suffix}${note}" VERBATIM)
       list(APPEND outputs ${output})
       string(APPEND declarations "extern const ::pellucid::rhi::Shader ${variant};\n")
       string(APPEND definitions "#include <pellucid/shaders/${stem}/${variant}-inl.hpp>\n")

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// An OpenGL 4.5 core context without a window or a surface, and which one is current on this thread.
+#include <memory>
+#include <pellucid/core/log.hpp>
+#include <pellucid/core/result.hpp>
+#include <pellucid/opengl/calls.hpp>
+#include <string>
+#include <vector>
+
+namespace pellucid::opengl {
+
+/// One way to get a context: a device of EGL's enumeration (hardware), or Mesa's surfaceless platform.
+struct Adapter {
+    void* display = nullptr;  ///< EGLDisplay, not yet initialised
+    std::string name;         ///< for messages before there is a context
+};
+
+/// What there is on this machine; empty where there is no EGL.
+[[nodiscard]] std::vector<Adapter> find_adapters();
+
+/// Where the driver's debug messages go while a context is in validation mode.
+struct DebugSink {
+    LogSink log = {};
+    bool quiet = false;  ///< set while a failure is reported by a `Result` anyway
+};
+
+inline constinit thread_local std::uint64_t current_context = 0;  ///< serial number; 0: none of ours
+
+/// Owns an EGL context.  It belongs to the thread that made it: EGL refuses to make it current on a second one while it
+/// is current on the first.  The EGL display under it is shared by the whole process and stays initialised.
+class Context {
+public:
+    /// A new context, made current.  `unsupported` with what `adapter` lacks.
+    [[nodiscard]] static Result<std::unique_ptr<Context>> open(const Adapter& adapter, bool validation);
+    ~Context();
+    Context(const Context&) = delete;
+    Context& operator=(const Context&) = delete;
+
+    /// Makes it current unless it is.  False where EGL refuses: it is current on another thread.
+    bool enter() noexcept {
+        if (current_context == serial_) [[likely]]
+            return true;
+        return make_current();
+    }
+    [[nodiscard]] bool no_error() const noexcept { return no_error_; }
+
+    std::uint64_t calls = 0;  ///< counted API calls (calls.hpp)
+
+private:
+    Context() = default;
+    bool make_current() noexcept;
+
+    void* display_ = nullptr;
+    void* context_ = nullptr;
+    std::uint64_t serial_ = 0;
+    bool no_error_ = false;
+};
+
+/// Restores, when it ends, what was current on this thread when it began.
+class CurrentGuard {
+public:
+    CurrentGuard() noexcept;
+    ~CurrentGuard();
+    CurrentGuard(const CurrentGuard&) = delete;
+    CurrentGuard& operator=(const CurrentGuard&) = delete;
+
+private:
+    void *display_, *context_, *draw_, *read_;
+    std::uint64_t serial_;
+    std::uint64_t* counter_;
+};
+
+}  // namespace pellucid::opengl

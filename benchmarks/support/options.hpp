@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The command line of a benchmark: `--name value` pairs, nothing else.
+#include <charconv>
+#include <cstdint>
+#include <initializer_list>
+#include <map>
+#include <pellucid/core/result.hpp>
+#include <string>
+#include <string_view>
+#include <utility>
+
+namespace pellucid::bench {
+
+/// Options with their defaults; after `parse`, with what the user gave.
+class Options {
+public:
+    /// \param defaults name (without the dashes) to value.  An option not listed is an error.
+    Options(std::initializer_list<std::pair<const std::string, std::string>> defaults) : values_(defaults) {}
+
+    Result<void> parse(int argc, char** argv) {
+        for (int i = 1; i < argc; i += 2) {
+            const std::string_view name = argv[i];
+            const auto found = name.starts_with("--") ? values_.find(name.substr(2)) : values_.end();
+            if (found == values_.end()) return Error{Errc::invalid_argument, usage(name, "is not an option")};
+            if (i + 1 == argc) return Error{Errc::invalid_argument, usage(name, "needs a value")};
+            found->second = argv[i + 1];
+        }
+        return {};
+    }
+    /// Precondition: `name` is one of the options.
+    [[nodiscard]] const std::string& text(std::string_view name) const { return values_.find(name)->second; }
+    /// The option as an integer in [lowest, highest].
+    [[nodiscard]] Result<std::uint32_t> number(std::string_view name, std::uint32_t lowest,
+                                               std::uint32_t highest) const {
+        const std::string& value = text(name);
+        std::uint32_t out = 0;
+        const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), out);
+        if (error != std::errc{} || end != value.data() + value.size() || out < lowest || out > highest)
+            return Error{Errc::invalid_argument, "--" + std::string(name) + " is '" + value +
+                                                     "' but must be a whole number from " + std::to_string(lowest) +
+                                                     " to " + std::to_string(highest)};
+        return out;
+    }
+
+private:
+    [[nodiscard]] std::string usage(std::string_view name, const char* problem) const {
+        std::string out = "'" + std::string(name) + "' " + problem + "; options and defaults:";
+        for (const auto& [option, value] : values_) out += " --" + option + " " + (value.empty() ? "''" : value);
+        return out;
+    }
+
+    std::map<std::string, std::string, std::less<>> values_;
+};
+
+}  // namespace pellucid::bench

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The G-buffer pass: opaque and alpha-masked surfaces, one draw an instance, no bind between draws.
+#include <pellucid/gpu/gbuffer.h>
+#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/shaders/gbuffer.hpp>
+
+namespace pellucid {
+
+enum class GBufferLayout : std::uint8_t {
+    compact,  ///< 16 bytes a pixel: position comes from depth, normals are octahedral (largest error 0.0025°)
+    classic   ///< 36 bytes a pixel: stored world position, half-float normals; kept to be measured
+};
+[[nodiscard]] constexpr const char* name(GBufferLayout l) noexcept {
+    return l == GBufferLayout::compact ? "compact" : "classic";
+}
+
+/// The colour formats of a layout, in attachment order; the last is emitted radiance where it is asked for.
+[[nodiscard]] constexpr SmallVector<rhi::Format, 5> gbuffer_formats(GBufferLayout layout, bool emissive) {
+    using enum rhi::Format;
+    SmallVector<rhi::Format, 5> formats;
+    if (layout == GBufferLayout::compact)
+        formats = {r32_uint, rgba8_srgb, r32_uint};
+    else
+        formats = {rgba32_float, rgba16_float, rgba8_srgb, rgba8_unorm};
+    if (emissive) formats.push_back(rgba16_float);
+    return formats;
+}
+
+struct GBufferDesc {
+    GBufferLayout layout = GBufferLayout::compact;
+    bool emissive = false;                          ///< add the target for emitted radiance
+    std::uint32_t needs = PELLUCID_NEED_ALL;        ///< PELLUCID_NEED_* of the scene
+    std::uint32_t culls = 7;                        ///< bit (1 << Cull) for each way of culling in use
+    bool exact = false;
+};
+
+/// `[h, w]` textures of gbuffer_formats(), and d32_float depth (reversed, cleared to 0).
+struct GBufferTargets {
+    SmallVector<rhi::Texture, 5> colors = {};
+    rhi::Texture depth = {};
+    Extent2D size = {};
+};
+
+/// Rasterises surfaces into a G-buffer; depth test greater-or-equal, so that of two equal depths the later draw wins.
+/// Shaders: shaders/gbuffer.  Reference: reference/gbuffer.hpp.
+template <rhi::Backend B>
+class GBufferPass {
+public:
+    /// Errors: those of pipeline creation.
+    [[nodiscard]] static Result<GBufferPass> create(typename B::Device& device, const GBufferDesc& desc);
+
+    /// Records one render pass that clears and fills `targets`.  Precondition: no pass is open.
+    void record(typename B::Commands& cmd, const GBufferTargets& targets, const SceneBinding& scene,
+                std::span<const DrawItem> items) const;
+
+private:
+    CullVariants<B> pipelines_;
+    bool emissive_ = false;
+};
+
+// ------------------------------------------------------------------------------------------------------- bodies
+
+template <rhi::Backend B>
+Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const GBufferDesc& desc) {
+    GBufferPass pass;
+    pass.emissive_ = desc.emissive;
+    const bool compact = desc.layout == GBufferLayout::compact;
+    const rhi::Shader& compact_shader = desc.exact ? shaders::gbuffer_frag_exact : shaders::gbuffer_frag;
+    const rhi::Shader& classic_shader = desc.exact ? shaders::gbuffer_classic_frag_exact : shaders::gbuffer_classic_frag;
+    const rhi::SpecConstant constants[] = {{0, desc.needs}};
+    rhi::GraphicsPipelineDesc pipeline{
+        .vertex = &shaders::gbuffer_vert,
+        .fragment = compact ? &compact_shader : &classic_shader,
+        .constants = constants,
+        .scene_group = scene_group_layout(),
+        .depth = {.format = rhi::Format::d32_float, .test = true, .write = true, .compare = rhi::Compare::greater_equal},
+        .debug_name = "gbuffer"};
+    for (const rhi::Format format : gbuffer_formats(desc.layout, desc.emissive))
+        pipeline.colors.push_back({.format = format});
+    PELLUCID_CHECK(pass.pipelines_.create(device, pipeline, desc.culls));
+    return pass;
+}
+
+template <rhi::Backend B>
+void GBufferPass<B>::record(typename B::Commands& cmd, const GBufferTargets& targets, const SceneBinding& scene,
+                            std::span<const DrawItem> items) const {
+    rhi::RenderPassDesc pass{
+        .depth = {.texture = targets.depth}, .uses = scene.uses, .size = targets.size, .name = "gbuffer"};
+    pass.uses.push_back(rhi::use(scene.indices, rhi::Access::index_read));
+    // What depth says is not covered is never read, so colours need no clear.
+    for (const rhi::Texture texture : targets.colors)
+        pass.colors.push_back({.texture = texture, .load = rhi::Load::discard});
+    cmd.begin_render(pass);
+    draw_items<B>(cmd, pipelines_, scene, items);
+    cmd.end_render();
+}
+
+}  // namespace pellucid

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Bodies of GpuScene<B>.
+#include <pellucid/renderer/gpu_scene.hpp>
+#include <cstring>
+
+namespace pellucid {
+
+template <rhi::Backend B>
+template <class T>
+Result<void> GpuScene<B>::make_buffer(typename B::Device& device, rhi::Unique<typename B::Device, rhi::Buffer>& out,
+                                      std::span<const T> values, rhi::BufferUsage usage, const char* debug_name) {
+    // An empty table still is a buffer: every binding of a group must be there.
+    const T none{};
+    const auto bytes = values.empty() ? rhi::bytes_of(none) : rhi::bytes_of(values);
+    if (const std::uint64_t limit = device.info().max_storage_buffer_bytes; bytes.size() > limit)
+        return Error{Errc::unsupported, std::string(debug_name) + " takes " + std::to_string(bytes.size()) +
+                                            " bytes; the largest storage buffer of " + device.info().name + " is " +
+                                            std::to_string(limit) + " bytes: split or simplify the scene"};
+    PELLUCID_OWN(out, device,
+                 device.make_buffer({.size = bytes.size(),
+                                     .usage = usage | rhi::BufferUsage::storage,
+                                     .initial = bytes,
+                                     .debug_name = debug_name}));
+    resources_.push_back({debug_name, bytes.size(), false});
+    return {};
+}
+
+template <rhi::Backend B>
+Result<void> GpuScene<B>::make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan) {
+    auto filter = [](TextureFilter f) { return f == TextureFilter::linear ? rhi::Filter::linear : rhi::Filter::nearest; };
+    auto wrap = [](TextureWrap w) {
+        return w == TextureWrap::repeat ? rhi::Wrap::repeat : w == TextureWrap::mirror ? rhi::Wrap::mirror : rhi::Wrap::clamp;
+    };
+    for (const TextureArrayPlan& array : plan.arrays) {
+        // All layers of mip 0, then of mip 1, …: the order of TextureDesc::initial.
+        std::vector<std::vector<Image8>> chains;
+        for (const std::uint32_t image : array.images)
+            chains.push_back(mip_chain(resized(scene.images[image].pixels, array.size, array.srgb), array.srgb,
+                                       array.sampler.mipmapped));
+        std::vector<std::byte> texels;
+        for (std::size_t mip = 0; mip < chains[0].size(); ++mip)
+            for (const auto& chain : chains) {
+                const auto bytes = std::as_bytes(std::span(chain[mip].data));
+                texels.insert(texels.end(), bytes.begin(), bytes.end());
+            }
+        const rhi::TextureDesc desc{.size = array.size,
+                                    .layers = static_cast<std::uint32_t>(chains.size()),
+                                    .mips = static_cast<std::uint32_t>(chains[0].size()),
+                                    .format = array.srgb ? rhi::Format::rgba8_srgb : rhi::Format::rgba8_unorm,
+                                    .kind = rhi::TextureKind::array,
+                                    .initial = texels,
+                                    .debug_name = array.srgb ? "scene.color_textures" : "scene.data_textures"};
+        rhi::Unique<typename B::Device, rhi::Texture> texture;
+        PELLUCID_OWN(texture, device, device.make_texture(desc));
+        resources_.push_back({desc.debug_name, texture_bytes(desc), false});
+        textures_.push_back(std::move(texture));
+        rhi::Unique<typename B::Device, rhi::Sampler> sampler;
+        PELLUCID_OWN(sampler, device,
+                     device.make_sampler({.min = filter(array.sampler.min),
+                                          .mag = filter(array.sampler.mag),
+                                          .mip = filter(array.sampler.mip),
+                                          .mipmapped = array.sampler.mipmapped,
+                                          .wrap_u = wrap(array.sampler.wrap_u),
+                                          .wrap_v = wrap(array.sampler.wrap_v),
+                                          .debug_name = desc.debug_name}));
+        samplers_.push_back(std::move(sampler));
+    }
+    return {};
+}
+
+template <rhi::Backend B>
+void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings) {
+    std::uint32_t primitive = 0;
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        const Material& material = scene.materials[mesh.material];
+        const bool blend = material.alpha_mode == AlphaMode::blend;
+        if (mesh.indices.empty() || (blend && settings.transparency == Transparency::none)) continue;
+        Placed p;
+        p.record = gpu_draw_record(instance.world_from_object);
+        p.record.first_vertex = meshes.first_vertex[instance.mesh];
+        p.record.first_index = meshes.first_index[instance.mesh];
+        p.record.first_primitive = primitive;
+        p.record.triangle_count = static_cast<std::uint32_t>(mesh.indices.size() / 3);
+        p.record.material = mesh.material;
+        primitive += p.record.triangle_count;
+        triangles_ += p.record.triangle_count;
+        p.origin = glm::dvec3(instance.world_from_object[3]);
+        const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.lower) + glm::dvec3(mesh.upper));
+        p.center = glm::dvec3(instance.world_from_object * glm::dvec4(middle, 1));
+        const bool mirrored = (p.record.flags & PELLUCID_DRAW_MIRRORED) != 0;
+        p.item = {.first_index = p.record.first_index,
+                  .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
+                  .vertex_offset = static_cast<std::int32_t>(p.record.first_vertex),
+                  .record = static_cast<std::uint32_t>(placed_.size()),
+                  .cull = material.double_sided ? rhi::Cull::none : mirrored ? rhi::Cull::front : rhi::Cull::back};
+        p.translucent = blend;
+        mirrored_.push_back(mirrored ? 1 : 0);
+        auto bit = [](rhi::Cull cull) { return 1u << static_cast<std::uint32_t>(cull); };
+        if (blend) {
+            // Double-sided translucents are drawn as back faces, then front faces.
+            translucent_culls_ |= material.double_sided ? bit(rhi::Cull::front) | bit(rhi::Cull::back) : bit(p.item.cull);
+            sorted_.push_back({p.item, 0});
+        } else {
+            opaque_culls_ |= bit(p.item.cull);
+            opaque_.push_back(p.item);
+        }
+        placed_.push_back(p);
+    }
+    translucent_.reserve(2 * sorted_.size());
+}
+
+template <rhi::Backend B>
+Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene& scene,
+                                        const RenderSettings& settings) {
+    GpuScene out;
+    const MeshPlacement meshes = place_meshes(scene);
+    const std::vector<gpu::Vertex> vertices = gpu_vertices(scene);
+    std::vector<std::uint32_t> indices;
+    indices.reserve(meshes.indices);
+    for (const Mesh& mesh : scene.meshes) indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    const TexturePlan plan = plan_textures(scene, PELLUCID_TEXTURE_ARRAYS, device.info().max_array_layers);
+    out.warnings_ = plan.warnings;
+    std::vector<gpu::MaterialRecord> materials;
+    for (const Material& m : scene.materials) materials.push_back(gpu_material(m, plan));
+
+    // Lights are stored by kind, so that a shader needs no branch on it.
+    out.light_sources_ = scene.lights;
+    if (scene.lights.empty() && settings.default_light) {
+        out.light_sources_.push_back(default_sun());
+        out.ambient_ = true;
+    }
+    std::stable_sort(out.light_sources_.begin(), out.light_sources_.end(),
+                     [](const Light& a, const Light& b) { return a.kind < b.kind; });
+    auto ends_at = [&](LightKind kind) {
+        return static_cast<std::uint32_t>(std::count_if(out.light_sources_.begin(), out.light_sources_.end(),
+                                                        [&](const Light& l) { return l.kind <= kind; }));
+    };
+    out.light_ends_ = {ends_at(LightKind::directional), ends_at(LightKind::point), ends_at(LightKind::spot), 0};
+    out.light_records_.resize(std::max<std::size_t>(1, out.light_sources_.size()));
+
+    using enum rhi::BufferUsage;
+    PELLUCID_CHECK(out.make_buffer(device, out.vertices_, std::span<const gpu::Vertex>(vertices), storage, "scene.vertices"));
+    PELLUCID_CHECK(out.make_buffer(device, out.indices_, std::span<const std::uint32_t>(indices), index, "scene.indices"));
+    PELLUCID_CHECK(out.make_buffer(device, out.materials_, std::span<const gpu::MaterialRecord>(materials), storage,
+                                   "scene.materials"));
+    PELLUCID_CHECK(out.make_buffer(device, out.lights_, std::span<const gpu::LightRecord>(out.light_records_),
+                                   copy_destination, "scene.lights"));
+    PELLUCID_CHECK(out.make_textures(device, scene, plan));
+    if (out.textures_.size() < PELLUCID_TEXTURE_ARRAYS) {
+        // One white texel stands in for the arrays that the scene does not need.
+        const std::uint32_t white = ~0u;
+        rhi::Unique<typename B::Device, rhi::Texture> texture;
+        PELLUCID_OWN(texture, device,
+                     device.make_texture({.size = {1, 1},
+                                          .kind = rhi::TextureKind::array,
+                                          .initial = rhi::bytes_of(white),
+                                          .debug_name = "scene.no_texture"}));
+        out.textures_.push_back(std::move(texture));
+        rhi::Unique<typename B::Device, rhi::Sampler> sampler;
+        PELLUCID_OWN(sampler, device, device.make_sampler({.mipmapped = false, .debug_name = "scene.no_texture"}));
+        out.samplers_.push_back(std::move(sampler));
+    }
+    rhi::GroupDesc group{.slot = rhi::GroupSlot::scene, .layout = scene_group_layout(), .debug_name = "scene"};
+    auto bind_buffer = [&](std::uint32_t binding, rhi::Buffer buffer) {
+        group.bindings.push_back({.binding = binding, .buffer = buffer});
+        out.binding_.uses.push_back(rhi::use(buffer, rhi::Access::storage_read));
+    };
+    bind_buffer(PELLUCID_BIND_VERTICES, out.vertices_);
+    bind_buffer(PELLUCID_BIND_INDICES, out.indices_);
+    bind_buffer(PELLUCID_BIND_MATERIALS, out.materials_);
+    bind_buffer(PELLUCID_BIND_LIGHTS, out.lights_);
+    for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i) {
+        const std::size_t at = std::min<std::size_t>(i, out.textures_.size() - 1);
+        group.bindings.push_back(
+            {.binding = PELLUCID_BIND_TEXTURES + i, .texture = out.textures_[at], .sampler = out.samplers_[at]});
+        if (i == at) out.binding_.uses.push_back(rhi::use(out.textures_[at], rhi::Access::sampled));
+    }
+    PELLUCID_OWN(out.group_, device, device.make_group(group));
+    out.binding_.group = out.group_;
+    out.binding_.indices = out.indices_;
+    out.place_instances(scene, meshes, settings);
+    return out;
+}
+
+template <rhi::Backend B>
+void GpuScene<B>::update_lights(typename B::Commands& cmd, const glm::dvec3& eye) {
+    if (light_sources_.empty() || (lights_written_ && eye == lights_from_)) return;
+    for (std::size_t i = 0; i < light_sources_.size(); ++i) light_records_[i] = gpu_light(light_sources_[i], eye);
+    const auto bytes = rhi::bytes_of(std::span<const gpu::LightRecord>(light_records_));
+    cmd.begin_copy({.uses = {rhi::use(lights_, rhi::Access::copy_write)}, .name = "lights"});
+    constexpr std::size_t step = 65536 / sizeof(gpu::LightRecord) * sizeof(gpu::LightRecord);
+    for (std::size_t at = 0; at < bytes.size(); at += step)
+        cmd.update(lights_, at, bytes.subspan(at, std::min(step, bytes.size() - at)));
+    cmd.end_copy();
+    lights_from_ = eye;
+    lights_written_ = true;
+}
+
+template <rhi::Backend B>
+gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSettings& settings) const {
+    gpu::FrameParams f{};
+    const glm::dmat4& w = camera.world_from_view;
+    // Columns of the rotation view_from_relative are rows of world_from_view.
+    auto row = [&](int i) {
+        return gpu::vec4{static_cast<float>(w[0][i]), static_cast<float>(w[1][i]), static_cast<float>(w[2][i]), 0};
+    };
+    f.view_x = row(0);
+    f.view_y = row(1);
+    f.view_z = row(2);
+    const ClipFromView clip = clip_from_view(camera, settings.size);
+    auto narrow = [](double a, double b, double c, double d) {
+        return gpu::vec4{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c), static_cast<float>(d)};
+    };
+    f.clip_scale = narrow(clip.sx, clip.sy, clip.ox, clip.oy);
+    f.clip_depth = narrow(clip.zz, clip.zw, clip.wz, clip.ww);
+    f.pixel = narrow(2.0 / settings.size.width, 2.0 / settings.size.height, settings.size.width, settings.size.height);
+    if (ambient_) f.ambient = {default_ambient, default_ambient, default_ambient};
+    f.exposure = std::exp2(settings.exposure_ev);
+    f.background = to_gpu(settings.background);
+    f.tonemap = static_cast<std::uint32_t>(settings.tonemap);
+    f.camera_position = to_gpu(glm::dvec3(w[3]));
+    f.draw_count = instances();
+    f.light_ends = light_ends_;
+    return f;
+}
+
+template <rhi::Backend B>
+Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings) {
+    const glm::dvec3 eye(camera.world_from_view[3]);
+    const glm::dvec3 back(camera.world_from_view[2]);
+    update_lights(cmd, eye);
+    const gpu::FrameParams frame = frame_params(camera, settings);
+    PELLUCID_TRY(binding_.frame, cmd.upload_uniforms(rhi::bytes_of(frame)));
+    PELLUCID_TRY(binding_.records, cmd.upload_records(std::max(1u, instances()), sizeof(gpu::DrawRecord)));
+    std::byte* out = binding_.records.bytes.data();
+    for (const Placed& p : placed_) {
+        gpu::DrawRecord record = p.record;
+        record.origin = to_gpu(p.origin - eye);
+        std::memcpy(out, &record, sizeof record);
+        out += sizeof record;
+    }
+    for (SortedItem& item : sorted_) item.view_depth = glm::dot(eye - placed_[item.draw.record].center, back);
+    sort_back_to_front(sorted_);
+    split_sides(sorted_, translucent_, mirrored_);
+    return {};
+}
+
+}  // namespace pellucid

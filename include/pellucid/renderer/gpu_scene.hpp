@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// A scene on the GPU, laid out once so that any stage can evaluate any surface: vertices, indices, a material table and
+/// texture arrays in one group; instances as records of the frame's ring.
+#include <pellucid/graph/graph.hpp>
+#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/passes/sorted_forward.hpp>
+#include <pellucid/renderer/needs.hpp>
+#include <pellucid/renderer/scene_convert.hpp>
+#include <pellucid/rhi/unique.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <vector>
+
+namespace pellucid {
+
+/// Owns the GPU's copy of one Scene.  `settings` decide what is uploaded and drawn.
+template <rhi::Backend B>
+class GpuScene {
+public:
+    /// Uploads meshes, materials and textures.  Errors: `unsupported` where a buffer would exceed the device's largest
+    /// storage buffer, and those of creation.
+    [[nodiscard]] static Result<GpuScene> create(typename B::Device& device, const Scene& scene,
+                                                 const RenderSettings& settings);
+
+    /// Writes the frame's uniforms, instance records and (where the camera moved) lights, and sorts translucents.
+    /// Precondition: no pass is open.  Errors: those of the rings.
+    [[nodiscard]] Result<void> begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings);
+
+    /// What passes bind; valid after begin_frame, for this frame.
+    [[nodiscard]] const SceneBinding& binding() const noexcept { return binding_; }
+    [[nodiscard]] std::span<const DrawItem> opaque() const noexcept { return opaque_; }
+    [[nodiscard]] std::span<const DrawItem> translucent() const noexcept { return translucent_; }  ///< back to front
+    [[nodiscard]] std::uint32_t opaque_culls() const noexcept { return opaque_culls_; }
+    [[nodiscard]] std::uint32_t translucent_culls() const noexcept { return translucent_culls_; }
+    [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }
+    [[nodiscard]] std::uint32_t lights() const noexcept { return static_cast<std::uint32_t>(light_sources_.size()); }
+    [[nodiscard]] std::uint64_t triangles() const noexcept { return triangles_; }
+    [[nodiscard]] const std::vector<TextureReport>& resources() const noexcept { return resources_; }
+    [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
+private:
+    struct Placed {
+        gpu::DrawRecord record;        ///< all but origin, which depends on the camera
+        glm::dvec3 origin{0, 0, 0};    ///< [m] world
+        glm::dvec3 center{0, 0, 0};    ///< [m] world, of the bounds
+        DrawItem item;
+        bool translucent = false;
+    };
+    template <class T>
+    [[nodiscard]] Result<void> make_buffer(typename B::Device& device, rhi::Unique<typename B::Device, rhi::Buffer>& out,
+                                           std::span<const T> values, rhi::BufferUsage usage, const char* debug_name);
+    [[nodiscard]] Result<void> make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan);
+    void place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings);
+    void update_lights(typename B::Commands& cmd, const glm::dvec3& eye);
+    [[nodiscard]] gpu::FrameParams frame_params(const Camera& camera, const RenderSettings& settings) const;
+
+    rhi::Unique<typename B::Device, rhi::Buffer> vertices_, indices_, materials_, lights_;
+    std::vector<rhi::Unique<typename B::Device, rhi::Texture>> textures_;
+    std::vector<rhi::Unique<typename B::Device, rhi::Sampler>> samplers_;
+    rhi::Unique<typename B::Device, rhi::Group> group_;
+    std::vector<Placed> placed_;
+    std::vector<DrawItem> opaque_, translucent_;
+    std::vector<SortedItem> sorted_;
+    std::vector<std::uint8_t> mirrored_;
+    std::vector<Light> light_sources_;
+    std::vector<gpu::LightRecord> light_records_;
+    glm::dvec3 lights_from_{0, 0, 0};
+    bool lights_written_ = false;
+    bool ambient_ = false;
+    gpu::uvec4 light_ends_;
+    std::uint32_t opaque_culls_ = 0, translucent_culls_ = 0;
+    std::uint64_t triangles_ = 0;
+    SceneBinding binding_;
+    std::vector<TextureReport> resources_;
+    std::vector<std::string> warnings_;
+};
+
+}  // namespace pellucid
+
+#include <pellucid/renderer/gpu_scene-inl.hpp>

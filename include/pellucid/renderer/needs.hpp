@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// What a scene needs, and why: it culls passes, sizes targets and sets specialisation constant 0 of every shader.
+#include <pellucid/gpu/scene.h>
+#include <pellucid/renderer/settings.hpp>
+#include <pellucid/scene/scene.hpp>
+#include <cstdint>
+
+namespace pellucid {
+
+struct SceneNeeds {
+    std::uint32_t mask = 0;     ///< PELLUCID_NEED_* of gpu/scene.h
+    bool opaque = false;        ///< any opaque or masked instance: a G-buffer and a lighting pass
+    bool translucent = false;   ///< any blended instance that is to be drawn
+    bool emissive_target = false;  ///< the G-buffer stores emitted radiance
+    [[nodiscard]] bool has(std::uint32_t bits) const noexcept { return (mask & bits) != 0; }
+};
+
+/// The sun of a scene without lights: 3 lx from over the right shoulder of a viewer who looks along -z.
+[[nodiscard]] inline Light default_sun() {
+    return {.kind = LightKind::directional,
+            .color = {1, 1, 1},
+            .intensity = 3,
+            .direction = glm::normalize(glm::dvec3(-0.5, -1.0, -0.6)),
+            .name = "default sun"};
+}
+/// [cd/m²] the constant ambient of a scene without lights.
+inline constexpr float default_ambient = 0.25f;
+
+/// What drawing `scene` with `settings` takes.
+[[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {
+    SceneNeeds needs;
+    auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[instance.mesh];
+        const Material& m = scene.materials[mesh.material];
+        const bool blend = m.alpha_mode == AlphaMode::blend;
+        if (blend && settings.transparency == Transparency::none) continue;
+        (blend ? needs.translucent : needs.opaque) = true;
+        const bool emits = m.emissive != glm::vec3(0) || m.unlit;
+        needs.emissive_target = needs.emissive_target || (emits && !blend);
+        mark(PELLUCID_NEED_EMISSIVE, emits);
+        mark(PELLUCID_NEED_UNLIT, m.unlit);
+        mark(PELLUCID_NEED_ALPHA_MASK, m.alpha_mode == AlphaMode::mask);
+        mark(PELLUCID_NEED_NORMAL_MAPS, m.normal_texture.used() && !m.unlit);
+        mark(PELLUCID_NEED_OCCLUSION, m.occlusion_texture.used());
+        mark(PELLUCID_NEED_VERTEX_COLORS, !mesh.colors.empty());
+        for (const TextureRef* ref : {&m.base_color_texture, &m.metallic_roughness_texture, &m.normal_texture,
+                                      &m.occlusion_texture, &m.emissive_texture}) {
+            mark(PELLUCID_NEED_TEXTURES, ref->used());
+            mark(PELLUCID_NEED_SECOND_UV, ref->used() && ref->uv_set == 1);
+        }
+    }
+    for (const Light& light : scene.lights) {
+        mark(PELLUCID_NEED_DIRECTIONAL, light.kind == LightKind::directional);
+        mark(PELLUCID_NEED_POINTS, light.kind == LightKind::point);
+        mark(PELLUCID_NEED_SPOTS, light.kind == LightKind::spot);
+    }
+    if (scene.lights.empty() && settings.default_light) needs.mask |= PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT;
+    if (settings.every_need) {
+        needs.mask = PELLUCID_NEED_ALL;
+        needs.emissive_target = true;
+    }
+    return needs;
+}
+
+}  // namespace pellucid

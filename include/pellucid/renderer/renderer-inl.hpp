@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Bodies of Renderer<B>.
+#include <pellucid/renderer/renderer.hpp>
+
+namespace pellucid {
+
+template <rhi::Backend B>
+Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& device, const Scene& scene,
+                                                         const RenderSettings& settings) {
+    const std::uint32_t limit = device.info().max_texture_size;
+    if (settings.size.width == 0 || settings.size.height == 0 || settings.size.width > limit ||
+        settings.size.height > limit)
+        return Error{Errc::invalid_argument, "the picture's size is " + std::to_string(settings.size.width) + "x" +
+                                                 std::to_string(settings.size.height) + "; each side must be 1 to " +
+                                                 std::to_string(limit) + " on " + device.info().name};
+    std::unique_ptr<Renderer> renderer(new Renderer(device));
+    renderer->settings_ = settings;
+    PELLUCID_CHECK(renderer->build(scene));
+    return renderer;
+}
+
+template <rhi::Backend B>
+Result<void> Renderer<B>::build(const Scene& scene) {
+    needs_ = scene_needs(scene, settings_);
+    warnings_ = scene.warnings;
+    PELLUCID_TRY(scene_, GpuScene<B>::create(*device_, scene, settings_));
+    PELLUCID_TRY(timer_, measure::GpuTimer<B>::create(*device_));
+
+    using enum rhi::TextureUsage;
+    auto target = [&](rhi::Format format, rhi::TextureUsage usage, const char* debug_name) {
+        return graph_.texture({.size = settings_.size, .format = format, .usage = usage, .debug_name = debug_name});
+    };
+    const bool fragment = settings_.shading == ShadingStage::fragment;
+    rhi::TextureUsage hdr_usage = sampled | copy_source | (fragment ? attachment : storage);
+    if (needs_.translucent || !needs_.opaque) hdr_usage |= attachment;
+    hdr_ = target(rhi::Format::rgba16_float, hdr_usage, "hdr");
+    display_ = target(rhi::Format::rgba8_unorm, storage | copy_source, "display");
+    if (needs_.opaque || needs_.translucent)
+        depth_ = target(rhi::Format::d32_float, attachment | sampled | copy_source, "depth");
+
+    if (needs_.opaque)
+        declare_opaque();
+    else
+        declare_background();
+    declare_translucent();
+    declare_tonemap();
+    graph_.keep(hdr_);
+    graph_.keep(display_);
+    if (settings_.keep_gbuffer && needs_.opaque) {
+        for (const GraphTexture t : colors_) graph_.keep(t);
+        graph_.keep(depth_);
+    }
+    return graph_.compile(*device_);
+}
+
+template <rhi::Backend B>
+void Renderer<B>::declare_opaque() {
+    constexpr const char* compact_names[] = {"gbuffer.normal", "gbuffer.base", "gbuffer.material", "gbuffer.emissive"};
+    constexpr const char* classic_names[] = {"gbuffer.position", "gbuffer.normal", "gbuffer.base", "gbuffer.material",
+                                             "gbuffer.emissive"};
+    using enum rhi::TextureUsage;
+    const auto formats = gbuffer_formats(settings_.gbuffer, needs_.emissive_target);
+    for (std::size_t i = 0; i < formats.size(); ++i)
+        colors_.push_back(graph_.texture(
+            {.size = settings_.size,
+             .format = formats[i],
+             .usage = attachment | sampled | copy_source,
+             .debug_name = settings_.gbuffer == GBufferLayout::compact ? compact_names[i] : classic_names[i]}));
+    GraphPassDesc fill{.name = "gbuffer", .writes = {depth_}};
+    GraphPassDesc light{.name = "lighting", .reads = {depth_}, .writes = {hdr_}};
+    for (const GraphTexture t : colors_) {
+        fill.writes.push_back(t);
+        light.reads.push_back(t);
+    }
+    graph_.add(
+        fill,
+        [this](typename B::Device& device) -> Result<void> {
+            gbuffer_ = {.depth = graph_[depth_], .size = settings_.size};
+            for (const GraphTexture t : colors_) gbuffer_.colors.push_back(graph_[t]);
+            PELLUCID_TRY(gbuffer_pass_, GBufferPass<B>::create(device, {.layout = settings_.gbuffer,
+                                                                         .emissive = needs_.emissive_target,
+                                                                         .needs = needs_.mask,
+                                                                         .culls = scene_->opaque_culls(),
+                                                                         .exact = settings_.exact}));
+            pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->opaque_culls()));
+            return {};
+        },
+        [this](typename B::Commands& cmd) { gbuffer_pass_->record(cmd, gbuffer_, scene_->binding(), scene_->opaque()); });
+    graph_.add(
+        light,
+        [this](typename B::Device& device) -> Result<void> {
+            PELLUCID_TRY(lighting_pass_, LightingPass<B>::create(device,
+                                                                 {.layout = settings_.gbuffer,
+                                                                  .emissive = needs_.emissive_target,
+                                                                  .stage = settings_.shading,
+                                                                  .brdf = settings_.brdf,
+                                                                  .needs = needs_.mask,
+                                                                  .exact = settings_.exact},
+                                                                 gbuffer_, graph_[hdr_]));
+            ++pipelines_;
+            return {};
+        },
+        [this](typename B::Commands& cmd) { lighting_pass_->record(cmd, scene_->binding()); });
+}
+
+/// Nothing opaque: no G-buffer and no lighting pass; one clear stands for both.
+template <rhi::Backend B>
+void Renderer<B>::declare_background() {
+    graph_.leave_out("gbuffer", "the scene has no opaque surface");
+    graph_.leave_out("lighting", "the scene has no opaque surface");
+    GraphPassDesc clear{.name = "background", .writes = {hdr_}};
+    if (depth_) clear.writes.push_back(depth_);
+    graph_.add(
+        clear, [](typename B::Device&) -> Result<void> { return {}; },
+        [this](typename B::Commands& cmd) {
+            const glm::vec3 b = settings_.background;
+            rhi::RenderPassDesc pass{.colors = {{.texture = graph_[hdr_], .clear = {b.x, b.y, b.z, 1}}},
+                                     .size = settings_.size,
+                                     .name = "background"};
+            if (depth_) pass.depth.texture = graph_[depth_];
+            cmd.begin_render(pass);
+            cmd.end_render();
+        });
+}
+
+template <rhi::Backend B>
+void Renderer<B>::declare_translucent() {
+    if (!needs_.translucent) {
+        graph_.leave_out("sorted_forward", settings_.transparency == Transparency::none
+                                               ? "transparency is switched off"
+                                               : "the scene has no translucent surface");
+        return;
+    }
+    graph_.add(
+        {.name = "sorted_forward", .reads = {hdr_, depth_}, .writes = {hdr_}},
+        [this](typename B::Device& device) -> Result<void> {
+            PELLUCID_TRY(sorted_pass_, SortedForwardPass<B>::create(device, {.brdf = settings_.brdf,
+                                                                             .needs = needs_.mask,
+                                                                             .culls = scene_->translucent_culls(),
+                                                                             .exact = settings_.exact}));
+            pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->translucent_culls()));
+            return {};
+        },
+        [this](typename B::Commands& cmd) {
+            sorted_pass_->record(cmd, graph_[hdr_], graph_[depth_], settings_.size, scene_->binding(),
+                                 scene_->translucent());
+        });
+}
+
+template <rhi::Backend B>
+void Renderer<B>::declare_tonemap() {
+    graph_.add(
+        {.name = "tonemap", .reads = {hdr_}, .writes = {display_}},
+        [this](typename B::Device& device) -> Result<void> {
+            PELLUCID_TRY(tonemap_pass_, TonemapPass<B>::create(device, graph_[hdr_], graph_[display_], settings_.size));
+            ++pipelines_;
+            return {};
+        },
+        [this](typename B::Commands& cmd) { tonemap_pass_->record(cmd, scene_->binding().frame); });
+}
+
+template <rhi::Backend B>
+Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
+    typename B::Commands* cmd = nullptr;
+    PELLUCID_TRY(cmd, device_->begin_frame());
+    timer_->begin_frame(*cmd);
+    PELLUCID_CHECK(scene_->begin_frame(*cmd, camera, settings_));
+    graph_.execute(*cmd, [&](const char* name, auto&& record) {
+        const auto scope = timer_->scope(*cmd, name);
+        record();
+    });
+    PELLUCID_TRY(last_, device_->submit());
+    timer_->end_frame(last_);
+    return last_;
+}
+
+template <rhi::Backend B>
+Result<ImageF> Renderer<B>::read_float(rhi::Texture texture) {
+    rhi::Texels texels;
+    PELLUCID_TRY(texels, rhi::download<B>(*device_, texture, {.size = settings_.size, .format = rhi::Format::rgba16_float}));
+    ImageF image(settings_.size.width, settings_.size.height, 4);
+    for (std::size_t i = 0; i < image.data.size(); ++i) {
+        std::uint16_t half;
+        std::memcpy(&half, texels.bytes.data() + 2 * i, 2);
+        image.data[i] = half_to_float(half);
+    }
+    return image;
+}
+
+template <rhi::Backend B>
+Result<Image8> Renderer<B>::read_display() {
+    rhi::Texels texels;
+    PELLUCID_TRY(texels, rhi::download<B>(*device_, graph_[display_], {.size = settings_.size}));
+    Image8 image(settings_.size.width, settings_.size.height, 4);
+    std::memcpy(image.data.data(), texels.bytes.data(), image.data.size());
+    return image;
+}
+
+template <rhi::Backend B>
+Result<rhi::Texels> Renderer<B>::read_gbuffer(std::size_t index) {
+    if (!settings_.keep_gbuffer || !needs_.opaque)
+        return Error{Errc::invalid_argument, "there is no G-buffer to read: set keep_gbuffer, and draw an opaque surface"};
+    if (index == depth_index)
+        return rhi::download<B>(*device_, gbuffer_.depth, {.size = settings_.size, .format = rhi::Format::d32_float});
+    const auto formats = gbuffer_formats(settings_.gbuffer, needs_.emissive_target);
+    if (index >= formats.size())
+        return Error{Errc::invalid_argument, "the G-buffer has " + std::to_string(formats.size()) + " targets; number " +
+                                                 std::to_string(index) + " was asked for"};
+    return rhi::download<B>(*device_, gbuffer_.colors[index], {.size = settings_.size, .format = formats[index]});
+}
+
+template <rhi::Backend B>
+RenderStats Renderer<B>::stats() const {
+    RenderStats stats{.passes = graph_.passes(),
+                      .resources = graph_.textures(),
+                      .pipelines = pipelines_,
+                      .draws = static_cast<std::uint32_t>(scene_->opaque().size() + scene_->translucent().size()),
+                      .triangles = scene_->triangles(),
+                      .lights = scene_->lights(),
+                      .warnings = warnings_};
+    stats.resources.insert(stats.resources.end(), scene_->resources().begin(), scene_->resources().end());
+    stats.warnings.insert(stats.warnings.end(), scene_->warnings().begin(), scene_->warnings().end());
+    for (const TextureReport& r : stats.resources) stats.bytes += r.bytes;
+    return stats;
+}
+
+}  // namespace pellucid

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The one-call renderer: a scene, a camera and settings in; a picture and an account of what it took out.
+#include <pellucid/core/half.hpp>
+#include <pellucid/graph/graph.hpp>
+#include <pellucid/measure/gpu_timer.hpp>
+#include <pellucid/passes/gbuffer.hpp>
+#include <pellucid/passes/lighting.hpp>
+#include <pellucid/passes/sorted_forward.hpp>
+#include <pellucid/passes/tonemap.hpp>
+#include <pellucid/renderer/gpu_scene.hpp>
+#include <pellucid/renderer/needs.hpp>
+#include <pellucid/rhi/readback.hpp>
+#include <bit>
+#include <memory>
+#include <optional>
+
+namespace pellucid {
+
+/// What a frame took.  Bytes are of the renderer's own objects; the device's rings are apart.
+struct RenderStats {
+    std::vector<PassReport> passes;        ///< in order; left-out ones with the reason
+    std::vector<TextureReport> resources;  ///< targets and the scene's buffers and textures
+    std::uint64_t bytes = 0;               ///< their sum
+    std::uint32_t pipelines = 0;           ///< built
+    std::uint32_t draws = 0;               ///< a frame
+    std::uint64_t triangles = 0;           ///< of the scene's instances
+    std::uint32_t lights = 0;
+    std::vector<std::string> warnings;     ///< of the scene and of its upload
+};
+
+/// Renders one scene with one set of settings on one device, which must outlive it.
+template <rhi::Backend B>
+class Renderer {
+public:
+    static constexpr std::size_t depth_index = 15;
+
+    /// Builds what the scene needs and nothing else.  `scene` is copied where it must be kept.
+    /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit; those of creation.
+    [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
+                                                                  const RenderSettings& settings = {});
+
+    /// Records and submits one frame; returns at once.  Errors: device loss, memory.
+    [[nodiscard]] Result<rhi::Ticket> render(const Camera& camera);
+
+    /// `[h, w, 4]` linear radiance before the tone curve, of the last frame; waits for it.
+    [[nodiscard]] Result<ImageF> read_hdr() { return read_float(graph_[hdr_]); }
+    /// `[h, w, 4]` display-referred sRGB codes of the last frame; waits for it.
+    [[nodiscard]] Result<Image8> read_display();
+    /// The texels of a G-buffer target, in the order of gbuffer_formats, or depth for `depth_index`; waits.  Needs
+    /// settings.keep_gbuffer and an opaque surface in the scene, else `invalid_argument`.
+    [[nodiscard]] Result<rhi::Texels> read_gbuffer(std::size_t index);
+
+    [[nodiscard]] RenderStats stats() const;
+    [[nodiscard]] const SceneNeeds& needs() const noexcept { return needs_; }
+    [[nodiscard]] const RenderSettings& settings() const noexcept { return settings_; }
+    /// GPU time of each pass of the newest frame whose timestamps have arrived; empty on devices without timestamps.
+    [[nodiscard]] auto gpu_times() { return timer_->collect(); }
+    /// Targets of the G-buffer, for passes of the user's own; null handles where the scene has nothing opaque.
+    [[nodiscard]] const GBufferTargets& gbuffer() const noexcept { return gbuffer_; }
+    [[nodiscard]] const SceneBinding& scene_binding() const noexcept { return scene_->binding(); }
+
+private:
+    explicit Renderer(typename B::Device& device) : device_(&device) {}
+    [[nodiscard]] Result<void> build(const Scene& scene);
+    void declare_opaque();
+    void declare_background();
+    void declare_translucent();
+    void declare_tonemap();
+    [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);
+
+    typename B::Device* device_;
+    RenderSettings settings_;
+    SceneNeeds needs_;
+    std::optional<GpuScene<B>> scene_;
+    Graph<B> graph_;
+    GraphTexture hdr_, depth_, display_;
+    SmallVector<GraphTexture, 5> colors_;
+    GBufferTargets gbuffer_;
+    std::optional<GBufferPass<B>> gbuffer_pass_;
+    std::optional<LightingPass<B>> lighting_pass_;
+    std::optional<SortedForwardPass<B>> sorted_pass_;
+    std::optional<TonemapPass<B>> tonemap_pass_;
+    std::optional<measure::GpuTimer<B>> timer_;
+    rhi::Ticket last_ = rhi::Ticket::none;
+    std::vector<std::string> warnings_;
+    std::uint32_t pipelines_ = 0;
+};
+
+}  // namespace pellucid
+
+#include <pellucid/renderer/renderer-inl.hpp>

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Blocking readback of one texture level through the concepts alone, so that it works on every backend.
+#include <pellucid/rhi/backend.hpp>
+#include <pellucid/rhi/unique.hpp>
+#include <algorithm>
+#include <cstring>
+#include <vector>
+
+namespace pellucid::rhi {
+
+/// Texels as they are stored: rows tightly packed, row 0 at the top.
+struct Texels {
+    Extent2D size = {};
+    Format format = Format::undefined;
+    std::vector<std::byte> bytes;  ///< size.width · size.height · info(format).bytes
+
+    /// Texel (x, y) as a trivially copyable `T`.  Precondition: sizeof(T) == info(format).bytes.
+    template <class T>
+    [[nodiscard]] T at(std::uint32_t x, std::uint32_t y) const {
+        T value;
+        std::memcpy(&value, bytes.data() + (std::size_t{y} * size.width + x) * sizeof(T), sizeof(T));
+        return value;
+    }
+};
+
+/// Copies one level of `texture` (copy_source usage) and waits.  `desc` gives its level-0 size and its format.
+/// Errors: memory, device loss.
+template <Backend B>
+[[nodiscard]] Result<Texels> download(typename B::Device& device, Texture texture, const TextureDesc& desc,
+                                      std::uint32_t mip = 0, std::uint32_t layer = 0) {
+    Texels out{.size = {std::max(1u, desc.size.width >> mip), std::max(1u, desc.size.height >> mip)},
+               .format = desc.format,
+               .bytes = {}};
+    const std::uint64_t bytes = std::uint64_t{out.size.width} * out.size.height * info(desc.format).bytes;
+    Unique<typename B::Device, Buffer> buffer;
+    PELLUCID_OWN(buffer, device,
+                 device.make_buffer({.size = bytes,
+                                     .usage = BufferUsage::copy_destination,
+                                     .memory = Memory::readback,
+                                     .debug_name = "readback"}));
+    typename B::Commands* cmd = nullptr;
+    PELLUCID_TRY(cmd, device.begin_frame());
+    cmd->begin_copy({.uses = {use(texture, Access::copy_read), use(buffer, Access::copy_write)}, .name = "readback"});
+    cmd->copy(texture, buffer, TextureCopy{.mip = mip, .layer = layer});
+    cmd->end_copy();
+    Ticket ticket{};
+    PELLUCID_TRY(ticket, device.submit());
+    PELLUCID_CHECK(device.wait(ticket));
+    const auto mapped = device.mapped(buffer);
+    out.bytes.assign(mapped.begin(), mapped.begin() + static_cast<std::ptrdiff_t>(bytes));
+    return out;
+}
+
+}  // namespace pellucid::rhi

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The reflectance models, in the forms of include/pellucid/reference/brdf.hpp.  All vectors are unit.
+#ifndef PELLUCID_BRDF_GLSL
+#define PELLUCID_BRDF_GLSL
+#include "common/exact.glsl"
+#include "pellucid/gpu/scene.h"
+
+SPEC_CONSTANT(1, BRDF, PELLUCID_BRDF_GLTF);
+
+const float PI = 3.14159265358979;
+const float INV_PI = 0.318309886183791;
+// Smallest GGX alpha for punctual lights (roughness 0.045): below it a point light's highlight is a delta that no pixel
+// can resolve.
+const float MIN_ALPHA = 0.002025;
+
+// What of the surface and the eye is the same for every light.
+struct Shading {
+    vec3 normal;
+    vec3 view;
+    vec3 f0;
+    vec3 diffuse;  // (1 - metallic) base / pi
+    float n_v;     // |N·V|
+    float alpha2;  // GGX alpha squared
+    float view_term;  // sqrt(N·V² (1 - a²) + a²), Smith's lambda for V
+    float roughness;
+};
+
+Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, vec3 view) {
+    Shading s;
+    s.normal = normal;
+    s.view = view;
+    s.f0 = blend3(vec3(0.04), base, metallic);
+    EXACT vec3 d = base * (1.0 - metallic);
+    s.diffuse = d * INV_PI;
+    s.n_v = abs(dot3(normal, view));
+    EXACT float a = max(roughness * roughness, MIN_ALPHA);
+    s.alpha2 = a * a;
+    EXACT float k = s.n_v - s.alpha2 * s.n_v;
+    k = k * s.n_v;
+    s.view_term = root(k + s.alpha2);
+    s.roughness = roughness;
+    return s;
+}
+
+// f(v, l) N·L for glTF's metallic-roughness model: Trowbridge–Reitz D in the form q = |N×H|² + (N·H a)², which does not
+// cancel near the peak (Lagrange's identity); height-correlated Smith V (Heitz 2014); Schlick F; diffuse (1 - F) rho/pi.
+// h = V + L is not normalised: |N×h|² and (N·h)² are divided by |h|² once.
+vec3 reflect_gltf(Shading s, vec3 l, float n_l) {
+    EXACT vec3 h = s.view + l;
+    EXACT float hh = dot3(h, h);
+    if (hh < 1e-12) return vec3(0.0);
+    EXACT vec3 c = cross3(s.normal, h);
+    EXACT float nh = dot3(s.normal, h);
+    EXACT float q = nh * nh;
+    q = q * s.alpha2;
+    q = q + dot3(c, c);
+    EXACT float ratio = quotient(hh, q);
+    EXACT float d = ratio * ratio;
+    d = d * s.alpha2 * INV_PI;
+    EXACT float k = n_l - s.alpha2 * n_l;
+    k = k * n_l;
+    EXACT float light_term = root(k + s.alpha2);
+    EXACT float denominator = n_l * s.view_term;
+    denominator = denominator + s.n_v * light_term;
+    EXACT float v = quotient(0.5, denominator);
+    EXACT float v_h = 0.5 * root(hh);
+    EXACT float x = max(1.0 - v_h, 0.0);
+    EXACT float x2 = x * x;
+    EXACT float x5 = x2 * x2;
+    x5 = x5 * x;
+    EXACT vec3 f = vec3(1.0) - s.f0;
+    f = f * x5;
+    f = f + s.f0;
+    EXACT vec3 r = (vec3(1.0) - f) * s.diffuse;
+    r = r + f * (d * v);
+    return r * n_l;
+}
+
+// The source document's own terms, kept to be measured: NoH²(a² - 1) + 1, Schlick's G with k = (r + 1)²/8, and an
+// epsilon in the denominator.  Its guards are its own; roughness 0 is not finite.
+vec3 reflect_seed(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
+    vec3 h = unit(s.view + l);
+    float a = s.roughness * s.roughness;
+    float a2 = a * a;
+    float n_h = max(dot3(s.normal, h), 0.0);
+    EXACT float inner = n_h * n_h * (a2 - 1.0) + 1.0;
+    float d = quotient(a2, PI * inner * inner);
+    float n_v = max(dot3(s.normal, s.view), 0.0);
+    EXACT float k = (s.roughness + 1.0) * (s.roughness + 1.0) * 0.125;
+    float g = quotient(n_v, n_v * (1.0 - k) + k) * quotient(n_l, n_l * (1.0 - k) + k);
+    EXACT float x = clamp(1.0 - max(dot3(h, s.view), 0.0), 0.0, 1.0);
+    EXACT float x5 = x * x * x * x * x;
+    EXACT vec3 f = s.f0 + (vec3(1.0) - s.f0) * x5;
+    EXACT vec3 kd = (vec3(1.0) - f) * (1.0 - metallic);
+    EXACT vec3 r = kd * base * INV_PI + f * quotient(d * g, 4.0 * n_v * n_l + 0.0001);
+    return r * n_l;
+}
+
+// Blinn–Phong as the source document's forward pass has it: base N·L + (N·H)^p, p = 2/a² - 2 (the exponent whose lobe
+// matches a GGX of the same roughness), white highlight.
+vec3 reflect_blinn_phong(Shading s, vec3 base, vec3 l, float n_l) {
+    vec3 h = unit(s.view + l);
+    EXACT float p = max(quotient(2.0, s.alpha2) - 2.0, 1.0);
+    float n_h = max(dot3(s.normal, h), 0.0);
+    float highlight = n_h > 0.0 ? pow(n_h, p) : 0.0;
+    EXACT vec3 r = base * n_l + vec3(highlight);
+    return r * INV_PI;
+}
+
+vec3 reflectance(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
+    if (BRDF == PELLUCID_BRDF_SEED) return reflect_seed(s, base, metallic, l, n_l);
+    if (BRDF == PELLUCID_BRDF_BLINN_PHONG) return reflect_blinn_phong(s, base, l, n_l);
+    return reflect_gltf(s, l, n_l);
+}
+#endif

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+#include "common/shade_pixel.glsl"
+#include "pellucid/gpu/lighting.h"
+layout(local_size_x = PELLUCID_LIGHTING_TILE_SIZE, local_size_y = PELLUCID_LIGHTING_TILE_SIZE) in;
+PASS_IMAGE(PELLUCID_LIGHTING_OUTPUT, rgba16f) writeonly image2D hdr;
+
+void main() {
+    ivec2 at = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(at, imageSize(hdr)))) return;
+    imageStore(hdr, at, shade_pixel(at));
+}

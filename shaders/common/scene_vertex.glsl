@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// The vertex stage of every pass that draws the scene: one text, so that depth is equal bit for bit between passes.
+#include "common/scene.glsl"
+
+invariant gl_Position;
+precise gl_Position;
+layout(location = 0) out vec3 out_normal;
+layout(location = 1) out vec4 out_tangent;
+layout(location = 2) out vec4 out_uv;
+layout(location = 3) out vec4 out_color;
+layout(location = 4) flat out uvec3 out_draw;
+
+void main() {
+    DrawRecord draw = records[RECORD_INDEX];
+    Vertex v = vertices[VERTEX_INDEX];
+    gl_Position = clip_position(relative_position(draw, v.position));
+
+    precise vec3 n = draw.normal_x * v.normal.x;
+    n = n + draw.normal_y * v.normal.y;
+    n = n + draw.normal_z * v.normal.z;
+    out_normal = n * inversesqrt(max(dot3_always(n, n), 1e-30));
+    out_tangent = vec4(0.0);
+    if (needs(PELLUCID_NEED_NORMAL_MAPS)) {
+        precise vec3 t = draw.axis_x * v.tangent.x;
+        t = t + draw.axis_y * v.tangent.y;
+        t = t + draw.axis_z * v.tangent.z;
+        t = t * inversesqrt(max(dot3_always(t, t), 1e-30));
+        // A mirrored instance turns the handedness of its tangent frames.
+        float w = (draw.flags & PELLUCID_DRAW_MIRRORED) != 0u ? -v.tangent.w : v.tangent.w;
+        out_tangent = vec4(t, w);
+    }
+    out_uv = vec4(v.u0, v.v0, v.uv1);
+    out_color = needs(PELLUCID_NEED_VERTEX_COLORS) ? unpack_color(v.color) : vec4(1.0);
+    out_draw = uvec3(draw.material, draw.flags, draw.first_primitive);
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// One fragment of a translucent surface, lit by the same function as opaque pixels: what every transparency method
+// sinks.  rgb is premultiplied by alpha.
+#ifndef PELLUCID_SHADE_FRAGMENT_GLSL
+#define PELLUCID_SHADE_FRAGMENT_GLSL
+#include "common/geometry_in.glsl"
+#include "common/lighting.glsl"
+
+vec4 shade_fragment() {
+    Surface s = load_surface(materials[in_draw.x], fragment_attributes());
+    EXACT vec3 radiance = s.emissive;
+    if (!s.unlit) {
+        vec3 p = relative_from_depth(gl_FragCoord.xy, gl_FragCoord.z);
+        radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, p,
+                                                direction_to_eye(p));
+    }
+    EXACT vec3 premultiplied = min(radiance, vec3(65504.0)) * s.alpha;
+    return vec4(premultiplied, s.alpha);
+}
+#endif
