@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Replaces operator new in the programs that ask for the count.  Per thread: drivers allocate on threads of their own.
 #include "support/allocations.hpp"
+#include <cstddef>
 #include <cstdlib>
 #include <new>
 

@@ -125,8 +125,10 @@ TEMPLATE_LIST_TEST_CASE("specialisation constants are found by number, in any or
     };
     const SpecConstant both[] = {{0, 5}, {7, 200}};
     const SpecConstant other[] = {{7, 9}, {0, 4}};
-    CHECK(draw_with(both) == 0x05C801FFu);
-    CHECK(draw_with(other) == 0x040900FFu);
+    const std::uint32_t first = draw_with(both);
+    CHECK(first == 0x05C801FFu);
+    const std::uint32_t second = draw_with(other);
+    CHECK(second == 0x040900FFu);
 }
 
 TEMPLATE_LIST_TEST_CASE("frame uniforms: more than a megabyte in a frame, over many frames", "[gpu]", test::Backends) {
