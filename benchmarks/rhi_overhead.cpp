@@ -8,6 +8,7 @@
 // Exit status: 0 measured; 1 a picture was wrong or a device failed; 2 usage; 4 no device.
 #include <cstdio>
 #include "rhi_overhead/measure.hpp"
+#include "rhi_overhead/muted.hpp"
 #include "rhi_overhead/ours.hpp"
 #include "rhi_overhead/raw_opengl.hpp"
 #include "rhi_overhead/raw_vulkan.hpp"
@@ -35,7 +36,7 @@ struct Pair {
     }
 };
 
-template <rhi::Backend B, class MakeRaw>
+template <rhi::Backend B, class Muted, class MakeRaw>
 Result<ApiResult> run(const std::string& device, const Settings& settings, double target, MakeRaw make_raw) {
     ApiResult out{.device = {}, .total_target = target, .variants = {}};
     rhi::DeviceDesc desc{.device = device, .frames_in_flight = frames_in_flight};
@@ -43,6 +44,8 @@ Result<ApiResult> run(const std::string& device, const Settings& settings, doubl
         PELLUCID_TRY(const auto pair, Pair<B>::make(desc, make_raw));
         out.device = pair.our_device->info();
         PELLUCID_TRY(out.variants, measure(*pair.ours, *pair.raw, settings));
+        const Muted ours(*pair.our_device), raw(*pair.raw_device);
+        PELLUCID_CHECK(measure_muted(*pair.ours, *pair.raw, settings, out.variants));
     }
     desc.count_api_calls = true;
     PELLUCID_TRY(const auto pair, Pair<B>::make(desc, make_raw));
@@ -57,7 +60,7 @@ int fail(const Error& error) {
 
 Result<void> run_all(int argc, char** argv) {
     Options options(
-        {{"backend", "both"}, {"device", ""}, {"draws", "10000"}, {"rounds", "31"}, {"frames", "5"}, {"json", ""}};
+        {{"backend", "both"}, {"device", ""}, {"draws", "10000"}, {"rounds", "31"}, {"frames", "5"}, {"json", ""}});
     PELLUCID_CHECK(options.parse(argc, argv));
     Settings settings;
     PELLUCID_TRY(settings.draws, options.number("draws", 1, 1000000));
@@ -71,11 +74,11 @@ Result<void> run_all(int argc, char** argv) {
     // One API's devices are gone before the other's are made: on some drivers destroying a Vulkan device breaks OpenGL.
     std::vector<ApiResult> results;
     if (backend != "opengl") {
-        PELLUCID_TRY(ApiResult result, run<Vulkan>(device, settings, 1.05, make_raw_vulkan));
+        PELLUCID_TRY(ApiResult result, run<Vulkan, MutedVulkan>(device, settings, 1.05, make_raw_vulkan));
         results.push_back(std::move(result));
     }
     if (backend != "vulkan") {
-        PELLUCID_TRY(ApiResult result, run<OpenGL>(device, settings, 1.10, make_raw_opengl));
+        PELLUCID_TRY(ApiResult result, run<OpenGL, MutedOpenGL>(device, settings, 1.10, make_raw_opengl));
         results.push_back(std::move(result));
     }
     const Machine machine = describe_machine();

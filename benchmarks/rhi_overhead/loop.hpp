@@ -50,9 +50,9 @@ public:
     [[nodiscard]] std::span<const DrawMatrix> matrices(std::uint64_t frame) const noexcept {
         return matrices_[frame % 2];
     }
-    /// Whether `rgba` ([64, 64, 4] bytes, row 0 at the top) is the picture of that frame; the error says which texel
-    /// is wrong.
-    [[nodiscard]] static Result<void> check(std::span<const std::byte> rgba, std::uint64_t frame);
+    /// Whether `rgba` ([64, 64, 4] bytes, row 0 at the top) is the picture of that frame, or an empty one where nothing
+    /// was `drawn`; the error says which texel is wrong.
+    [[nodiscard]] static Result<void> check(std::span<const std::byte> rgba, std::uint64_t frame, bool drawn);
 
 private:
     std::vector<DrawMatrix> matrices_[2];
@@ -60,8 +60,8 @@ private:
 
 /// [ns] of one frame.
 struct FrameTime {
-    double record = 0;  ///< from before the wait for a free command list to after the last recorded command
-    double total = 0;   ///< record, submission, and waiting until the GPU is done
+    double record = 0;  ///< from before the wait for a free command list to after the end of the render pass
+    double total = 0;   ///< and the copy, the submission and the wait until the GPU is done
 };
 
 /// One implementation of the frame, with everything made before the first one.

@@ -7,6 +7,7 @@
 #include <vector>
 #include "rhi_overhead/loop.hpp"
 #include "support/machine.hpp"
+#include "support/time.hpp"
 
 namespace pellucid::bench {
 
@@ -25,6 +26,7 @@ struct Samples {
 struct VariantResult {
     Variant variant = Variant::records;
     Samples ours, raw;
+    Summary own_cost;  ///< [ns] a draw: recording of ours - raw with the driver's calls muted
 };
 struct ApiResult {
     rhi::DeviceInfo device;
@@ -35,6 +37,9 @@ inline constexpr double record_target_ns = 5;  ///< largest accepted recording c
 
 /// Times both loops in turn, in alternating order, and checks every frame's picture: a wrong one is an error.
 Result<std::vector<VariantResult>> measure(Loop& ours, Loop& raw, const Settings& settings);
+
+/// The same with muted devices (muted.hpp), into `own_cost` of `results`.
+Result<void> measure_muted(Loop& ours, Loop& raw, const Settings& settings, std::vector<VariantResult>& results);
 
 /// Counts each loop's API calls in one settled frame, into `results`.  Both loops' devices count.
 Result<void> count_calls(Loop& ours, Loop& raw, const Settings& settings, std::vector<VariantResult>& results);

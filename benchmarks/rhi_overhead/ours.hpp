@@ -62,8 +62,9 @@ public:
         auto& c = *commands;
         PELLUCID_TRY(const rhi::UniformSlice uniforms, c.upload_uniforms(rhi::bytes_of(uniforms_)));
         rhi::RecordSlice records;
-        if (variant != Variant::push)
+        if (variant != Variant::push) {
             PELLUCID_TRY(records, c.upload_records(static_cast<std::uint32_t>(matrices.size()), record_stride));
+        }
         c.begin_render({.colors = {{.texture = target_}}, .size = {target_size, target_size}, .name = "draws"});
         c.bind_pipeline(variant == Variant::push ? push_pipeline_ : record_pipeline_);
         c.bind_frame(uniforms, records);
@@ -80,11 +81,12 @@ public:
                 break;
         }
         c.end_render();
+        const double recorded = now_ns();
+
         c.begin_copy({.uses = {rhi::use(target_, rhi::Access::copy_read), rhi::use(readback_, rhi::Access::copy_write)},
                       .name = "readback"});
         c.copy(target_, readback_, rhi::TextureCopy{});
         c.end_copy();
-        const double recorded = now_ns();
         PELLUCID_TRY(const rhi::Ticket ticket, device_.submit());
         PELLUCID_CHECK(device_.wait(ticket));
         const double done = now_ns();

@@ -42,7 +42,7 @@ struct Ring {
     for (const DrawMatrix& matrix : matrices) {
         std::memcpy(to, &matrix, sizeof matrix);
         to += record_stride;
-        glDrawElementsInstancedBaseInstance(GL_TRIANGLES, 3, GL_UNSIGNED_INT, nullptr, 1, record++);
+        glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, 3, GL_UNSIGNED_INT, nullptr, 1, 0, record++);
     }
 }
 [[gnu::noinline]] void record_pushes(const Ring& ring, GLsizeiptr at, GLsizeiptr step,
@@ -51,7 +51,7 @@ struct Ring {
         std::memcpy(ring.memory + at, &matrix, sizeof matrix);
         glBindBufferRange(GL_UNIFORM_BUFFER, PELLUCID_BIND_PUSH, ring.buffer, at, sizeof matrix);
         at += step;
-        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glDrawArraysInstancedBaseInstance(GL_TRIANGLES, 0, 3, 1, 0);
     }
 }
 
@@ -159,9 +159,10 @@ public:
             else
                 record_draws(to, matrices);
         }
+        const double recorded = now_ns();
+
         glGetTextureSubImage(target_, 0, 0, 0, 0, target_size, target_size, 1, GL_RGBA, GL_UNSIGNED_BYTE,
                              static_cast<GLsizei>(picture_.size()), nullptr);
-        const double recorded = now_ns();
         glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT);
         fences_[slot] = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
         if (!wait(fences_[slot])) return lost();

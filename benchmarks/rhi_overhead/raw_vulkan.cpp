@@ -108,13 +108,14 @@ Result<FrameTime> RawVulkan::frame(const Workload& workload, std::uint64_t numbe
             break;
     }
     vk_.CmdEndRendering(c);
+    const double recorded = now_ns();
+
     image_barrier(c, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT,
                   VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_READ_BIT,
                   VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
     const VkBufferImageCopy region{.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
                                    .imageExtent = {target_size, target_size, 1}};
     vk_.CmdCopyImageToBuffer(c, target_, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, readback_.buffer, 1, &region);
-    const double recorded = now_ns();
 
     const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                    .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
@@ -136,7 +137,7 @@ Result<FrameTime> RawVulkan::frame(const Workload& workload, std::uint64_t numbe
                                .pCommandBufferInfos = &commands,
                                .signalSemaphoreInfoCount = 1,
                                .pSignalSemaphoreInfos = &signal};
-    RAW_VK(vk_.QueueSubmit2(owner_.native_queue(), 1, &submit, VK_NULL_HANDLE));
+    RAW_VK(vk_.QueueSubmit2(native_.queue, 1, &submit, VK_NULL_HANDLE));
     PELLUCID_CHECK(wait(frame.done));
     const double done = now_ns();
     return FrameTime{recorded - start, done - start};

@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// The raw Vulkan loop's objects; only its own two source files include this.
+#include <pellucid/rhi/shader.hpp>
 #include <pellucid/vulkan/vulkan.hpp>
 #include <string>
 #include "rhi_overhead/loop.hpp"
@@ -33,7 +34,8 @@ struct RawFrame {
 
 class RawVulkan final : public Loop {
 public:
-    explicit RawVulkan(vulkan::Device& device) : owner_(device), vk_(device.table()), device_(device.native_device()) {}
+    explicit RawVulkan(vulkan::Device& device)
+        : owner_(device), native_(device.native()), vk_(*native_.table), device_(native_.device) {}
     ~RawVulkan() override;
     Result<void> make_objects();
     Result<FrameTime> frame(const Workload& workload, std::uint64_t number, Variant variant) override;
@@ -58,8 +60,10 @@ private:
                        VkPipelineStageFlags2 to, VkAccessFlags2 reads, VkImageLayout after) const;
 
     vulkan::Device& owner_;
+    vulkan::NativeDevice native_;
     const vulkan::DeviceTable& vk_;
     VkDevice device_;
+    VkPhysicalDeviceMemoryProperties memory_{};
     VkImage target_ = VK_NULL_HANDLE;
     VkDeviceMemory target_memory_ = VK_NULL_HANDLE;
     VkImageView target_view_ = VK_NULL_HANDLE;

@@ -2,16 +2,16 @@
 #include <pellucid/gpu/bindings.h>
 #include <cstring>
 #include <pellucid/shaders/bench_draws.hpp>
+#include <pellucid/vulkan/dispatch.hpp>
 #include "rhi_overhead/raw_vulkan_loop.hpp"
 
 namespace pellucid::bench {
 
 Result<std::uint32_t> RawVulkan::memory_type(std::uint32_t allowed, VkMemoryPropertyFlags wanted,
                                              VkMemoryPropertyFlags unwanted) {
-    const VkPhysicalDeviceMemoryProperties& memory = owner_.memory_properties();
     for (const VkMemoryPropertyFlags avoided : {unwanted, VkMemoryPropertyFlags{0}})
-        for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
-            const VkMemoryPropertyFlags has = memory.memoryTypes[i].propertyFlags;
+        for (std::uint32_t i = 0; i < memory_.memoryTypeCount; ++i) {
+            const VkMemoryPropertyFlags has = memory_.memoryTypes[i].propertyFlags;
             if ((allowed >> i & 1u) && (has & wanted) == wanted && !(has & avoided)) return i;
         }
     return Error{Errc::unsupported, "the raw Vulkan loop found no memory type with flags " + std::to_string(wanted)};
@@ -156,7 +156,7 @@ Result<VkPipeline> RawVulkan::make_pipeline(const rhi::Shader& vertex, const rhi
 Result<void> RawVulkan::make_frame(RawFrame& frame) {
     const VkCommandPoolCreateInfo pool{.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO,
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
-                                       .queueFamilyIndex = owner_.queue_family()};
+                                       .queueFamilyIndex = native_.family};
     RAW_VK(vk_.CreateCommandPool(device_, &pool, nullptr, &frame.pool));
     const VkCommandBufferAllocateInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = frame.pool,
@@ -201,6 +201,9 @@ Result<void> RawVulkan::reserve_records(RawFrame& frame, VkDeviceSize bytes) {
 }
 
 Result<void> RawVulkan::make_objects() {
+    PELLUCID_TRY(const vulkan::GlobalTable global, vulkan::load_global());
+    PELLUCID_TRY(const vulkan::InstanceTable instance, vulkan::load_instance(global, native_.instance));
+    instance.GetPhysicalDeviceMemoryProperties(native_.physical, &memory_);
     PELLUCID_CHECK(make_target());
     PELLUCID_TRY(readback_, make_buffer(target_size * target_size * 4, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                         VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT |

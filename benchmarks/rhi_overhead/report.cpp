@@ -30,21 +30,23 @@ std::string to_markdown(const std::vector<ApiResult>& results, const Settings& s
         std::to_string(settings.draws) + " draws a frame, " + std::to_string(settings.rounds) + " rounds of " +
         std::to_string(settings.frames) +
         " frames, loops in turn; [ns] a draw, median [quartiles] of the rounds; ratios and differences are "
-        "medians of each round's own\n";
+        "medians of each round's own; own cost: record - raw with empty functions in place of the driver's draws\n";
     for (const ApiResult& api : results) {
         out += "\n### " + api.device.backend + ": " + api.device.name + ", " + api.device.driver + "\n\n";
-        MarkdownTable table({"draw", "loop", "record", "record + submit + wait", "x raw", "record - raw",
+        MarkdownTable table({"draw", "loop", "record", "record + submit + wait", "x raw", "record - raw", "own cost",
                              "API calls a frame", "allocations a frame"});
         std::string verdicts;
         for (const VariantResult& result : api.variants) {
             const Comparison c = compare(result);
-            const auto row = [&](const char* who, const Samples& s, std::string ratio, std::string difference) {
+            const auto row = [&](const char* who, const Samples& s, std::string ratio, std::string difference,
+                                 std::string own) {
                 table.row({name(result.variant), who, with_spread(summarise(s.record)), with_spread(summarise(s.total)),
-                           std::move(ratio), std::move(difference), std::to_string(s.api_calls),
+                           std::move(ratio), std::move(difference), std::move(own), std::to_string(s.api_calls),
                            std::to_string(s.allocations)});
             };
-            row("Pellucid", result.ours, with_spread(c.total_ratio), with_spread(c.record_difference));
-            row("by hand", result.raw, "1", "0");
+            row("Pellucid", result.ours, with_spread(c.total_ratio), with_spread(c.record_difference),
+                with_spread(result.own_cost));
+            row("by hand", result.raw, "1", "0", "0");
             const std::string title = name(result.variant);
             verdicts += verdict((title + ": total / raw").c_str(), c.total_ratio.median, api.total_target, "");
             verdicts +=
@@ -79,6 +81,7 @@ std::string to_json(const std::vector<ApiResult>& results, const Settings& setti
             samples("ours", result.ours);
             samples("raw", result.raw);
             json.member("total_ratio", c.total_ratio).member("total_ratio_target", api.total_target);
+            json.member("own_cost", result.own_cost);
             json.member("record_difference", c.record_difference).member("record_difference_target", record_target_ns);
             json.end_object();
         }

@@ -38,8 +38,11 @@ class MarkdownTable {
 public:
     explicit MarkdownTable(std::vector<std::string> header) : rows_{std::move(header)} {}
 
-    /// Precondition: as many cells as the header has.
-    void row(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+    /// Missing cells are left empty; more cells than the header has are dropped.
+    void row(std::vector<std::string> cells) {
+        cells.resize(rows_.front().size());
+        rows_.push_back(std::move(cells));
+    }
 
     [[nodiscard]] std::string text() const {
         std::vector<std::size_t> width(rows_.front().size(), 3);

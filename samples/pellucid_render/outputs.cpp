@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include "outputs.hpp"
-#include <pellucid/reference/srgb.hpp>
 #include <pellucid/scene/framing.hpp>
 #include <pellucid/scene/image_file.hpp>
 #include <unistd.h>
@@ -15,6 +14,10 @@ using namespace pellucid;
 namespace {
 
 std::string ending(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+
+nlohmann::ordered_json summary(const measure::Summary& s) {
+    return {{"median", s.median}, {"low", s.min}, {"high", s.max}, {"count", s.count}};
+}
 
 }  // namespace
 
@@ -93,7 +96,7 @@ Result<void> write_stats(const std::string& file, const Options& options, const 
                         {"tonemap", name(s.tonemap)},
                         {"exact", s.exact}}},
                       {"frames", options.frames},
-                      {"frame_ms", {{"median", report.frame_ms_median}, {"low", report.frame_ms_low}, {"high", report.frame_ms_high}}},
+                      {"frame_ms", summary(report.frame_ms)},
                       {"load_to_first_frame_ms", report.load_to_first_frame_ms}};
     ordered_json passes = ordered_json::array();
     for (const PassReport& pass : report.stats.passes) {
@@ -101,7 +104,7 @@ Result<void> write_stats(const std::string& file, const Options& options, const 
         if (!pass.ran) entry["why_not"] = pass.reason;
         for (const PassTime& time : report.pass_times)
             if (time.name == pass.name)
-                entry["gpu_ms"] = {{"median", time.median_ms}, {"low", time.low_ms}, {"high", time.high_ms}};
+                entry["gpu_ms"] = summary(time.ms);
         passes.push_back(entry);
     }
     json["passes"] = passes;
@@ -115,10 +118,8 @@ Result<void> write_stats(const std::string& file, const Options& options, const 
     json["triangles"] = report.stats.triangles;
     json["lights"] = report.stats.lights;
     if (report.comparison) {
-        const Comparison& c = *report.comparison;
-        json["comparison"] = {{"with", c.file},           {"pixels", c.pixels},           {"rmse", c.rmse},
-                              {"max", c.maximum},         {"p99_9", c.p999},              {"scaled_rmse", c.scaled_rmse},
-                              {"scaled_p99_9", c.scaled_p999}, {"not_finite", c.not_finite}, {"different_pixels", c.different}};
+        json["comparison"] = ordered_json::parse(report.comparison->json);
+        json["comparison"]["with"] = options.compare;
     }
     json["warnings"] = report.stats.warnings;
     std::FILE* out = std::fopen(file.c_str(), "wb");

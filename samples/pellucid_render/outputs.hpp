@@ -2,9 +2,11 @@
 #pragma once
 /// \file
 /// What the program writes: pictures by their file's ending, and the statistics.
+#include "compare.hpp"
 #include "options.hpp"
 #include <pellucid/core/image.hpp>
 #include <pellucid/core/result.hpp>
+#include <pellucid/measure/statistics.hpp>
 #include <pellucid/renderer/renderer.hpp>
 #include <pellucid/scene/camera.hpp>
 #include <string>
@@ -23,22 +25,16 @@ pellucid::Result<void> write_picture(const std::string& file, const pellucid::Im
 /// A float picture that is not a photograph (an AOV): .png shows it clamped to [0,1].
 pellucid::Result<void> write_values(const std::string& file, const pellucid::ImageF& values);
 
-/// One pass's GPU times over the run.
+/// One pass's GPU times [ms] over the run.
 struct PassTime {
     std::string name;
-    double median_ms = 0, low_ms = 0, high_ms = 0;
-};
-/// What a comparison found; see measure/image_error.hpp for the definitions.
-struct Comparison {
-    std::string file;
-    double rmse = 0, maximum = 0, p999 = 0, scaled_rmse = 0, scaled_p999 = 0;
-    std::uint64_t pixels = 0, not_finite = 0, different = 0;
+    pellucid::measure::Summary ms;
 };
 struct Report {
     const pellucid::rhi::DeviceInfo* device = nullptr;
     pellucid::RenderStats stats;
     std::vector<PassTime> pass_times;
-    double frame_ms_median = 0, frame_ms_low = 0, frame_ms_high = 0;
+    pellucid::measure::Summary frame_ms;  ///< wall clock round submit and wait; the first frame is left out if it can be
     double load_to_first_frame_ms = 0;
     std::optional<Comparison> comparison;
 };

@@ -8,7 +8,6 @@
 #include "outputs.hpp"
 #include <pellucid/measure/statistics.hpp>
 #include <pellucid/renderer/renderer.hpp>
-#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <map>
@@ -39,21 +38,14 @@ pellucid::Result<void> draw_frames(typename B::Device& device, pellucid::Rendere
         PELLUCID_TRY(ticket, renderer.render(camera));
         PELLUCID_CHECK(device.wait(ticket));
         frames.push_back(milliseconds_since(start));
-        for (const auto& time : renderer.gpu_times()) times[time.name].push_back(time.ms);
+        std::span<const measure::GpuSpan> spans;
+        PELLUCID_TRY(spans, renderer.gpu_times());
+        for (const measure::GpuSpan& span : spans) times[span.name].push_back(span.ms);
     }
-    auto spread = [](std::vector<double> values, double& median_ms, double& low, double& high) {
-        median_ms = median(values);
-        low = *std::min_element(values.begin(), values.end());
-        high = *std::max_element(values.begin(), values.end());
-    };
     report.load_to_first_frame_ms += frames.front();
     if (frames.size() > 1) frames.erase(frames.begin());  // the first one warms caches
-    spread(frames, report.frame_ms_median, report.frame_ms_low, report.frame_ms_high);
-    for (auto& [pass, values] : times) {
-        PassTime time{.name = pass};
-        spread(values, time.median_ms, time.low_ms, time.high_ms);
-        report.pass_times.push_back(time);
-    }
+    report.frame_ms = measure::summarize(frames);
+    for (auto& [pass, values] : times) report.pass_times.push_back({pass, measure::summarize(values)});
     return {};
 }
 
@@ -92,11 +84,11 @@ pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, 
         }
         if (!options.compare.empty()) {
             PELLUCID_TRY(report.comparison, compare(options, linear, display));
-            over_budget = options.error_budget && report.comparison->rmse > *options.error_budget;
+            over_budget = options.error_budget && !(report.comparison->rmse <= *options.error_budget);
         }
         if (!options.stats.empty()) PELLUCID_CHECK(write_stats(options.stats, options, report));
         std::printf("%s on %s: %ux%u, %u draws, %.2f ms a frame%s%s\n", B::name, device->info().name.c_str(),
-                    options.settings.size.width, options.settings.size.height, report.stats.draws, report.frame_ms_median,
+                    options.settings.size.width, options.settings.size.height, report.stats.draws, report.frame_ms.median,
                     options.out.empty() ? "" : ", ", options.out.c_str());
     }
     if (options.validate && messages.errors != 0)

@@ -33,6 +33,9 @@ TEST_CASE("the nearest rank is always one of the values", "[cpu]") {
     CHECK(nearest_rank(thousand, 0.0) == 1);
     CHECK(nearest_rank(thousand, 0.9991) == 1000);
     CHECK(nearest_rank(thousand, 0.5) == 500);
+    std::vector<double> hundred(100);
+    std::iota(hundred.begin(), hundred.end(), 1.0);
+    CHECK(nearest_rank(hundred, 0.07) == 7);  // 0.07 · 100 rounds to just above 7
     std::vector<double> few = {3, 1, 2};
     CHECK(nearest_rank(few, 0.999) == 3);
     CHECK(nearest_rank(few, 0.5) == 2);

@@ -159,6 +159,24 @@ TEST_CASE("light, normal and view in line: F0 D(0)/4 and Lambert's share", "[cpu
     CHECK(punctual_alpha(std::numeric_limits<double>::quiet_NaN()) == Approx(0.045 * 0.045).epsilon(1e-14));
 }
 
+TEST_CASE("metals have no diffuse part, and half metals half of it", "[cpu]") {
+    const glm::dvec3 n(0, 0, 1);
+    for (const BrdfModel model : {BrdfModel::gltf, BrdfModel::seed, BrdfModel::blinn_phong}) {
+        CHECK(evaluate_brdf(model, Surface<double>{.metallic = 1}, n, n).diffuse == glm::dvec3(0.0));
+        const double fresnel = model == BrdfModel::blinn_phong ? 0.0 : 0.52;
+        CHECK(evaluate_brdf(model, Surface<double>{.metallic = 0.5}, n, n).diffuse.x ==
+              Approx(0.5 * (1 - fresnel) / pi).epsilon(1e-12));
+    }
+}
+
+TEST_CASE("a normal that turns away from the eye uses |N.V|", "[cpu]") {
+    const glm::dvec3 v(std::sqrt(1 - 0.09), 0, -0.3), l(0.6, 0, 0.8);
+    const Surface<double> surface{.metallic = 1, .roughness = 0.5};
+    const double theta = angle_between({0, 0, 1}, v + l);
+    CHECK(evaluate_gltf(surface, v, l).specular.x ==
+          Approx(textbook_distribution(theta, 0.25) * smith_visibility(0.3, 0.8, 0.25) * 0.8).epsilon(1e-10));
+}
+
 TEST_CASE("light from behind gives exactly nothing, also along the view", "[cpu]") {
     const glm::dvec3 n(0, 0, 1), v = glm::normalize(glm::dvec3(0.3, 0.1, 0.8));
     for (const BrdfModel model : {BrdfModel::gltf, BrdfModel::seed, BrdfModel::blinn_phong}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
 #include <pellucid/reference/lighting.hpp>
+#include <pellucid/reference/tonemap.hpp>
 #include <vector>
 #include "sampling.hpp"
 #include "support/catch.hpp"
@@ -139,4 +140,14 @@ TEST_CASE("the eye is a point or a direction", "[cpu]") {
     CHECK(glm::length(direction_to_eye(camera, {3, 4, 0}) - glm::dvec3(0.6, 0.8, 0)) < 1e-15);
     camera.projection = Projection::orthographic;
     CHECK(glm::length(direction_to_eye(camera, {100, -7, 2}) - glm::dvec3(0.6, 0.8, 0)) < 1e-15);
+}
+
+TEST_CASE("a sun in the smoothest mirror is finite, and an exposed picture of it can be stored", "[cpu]") {
+    const Surface<double> mirror{.normal = {0, 1, 0}, .metallic = 1, .roughness = 0};
+    const Light sun{.kind = LightKind::directional, .intensity = 1e5f, .direction = {0, -1, 0}};
+    const glm::dvec3 radiance = surface_radiance(mirror, {0, 0, 0}, {0, 1, 0}, {&sun, 1}, {0, 0, 0});
+    CHECK(radiance.x == Approx(1e5 / (4 * pi * std::pow(0.045, 4))).epsilon(1e-9));  // far above what binary16 holds
+    CHECK(sanitized(radiance) == glm::dvec3(65504.0));
+    CHECK(tone_map(ToneMap::neutral, -16.0, radiance).x > 0.7);
+    CHECK(tone_map(ToneMap::neutral, -16.0, radiance).x < 1.0);
 }

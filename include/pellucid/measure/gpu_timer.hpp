@@ -15,6 +15,7 @@
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/unique.hpp>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 

@@ -8,12 +8,14 @@
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <pellucid/core/result.hpp>
 #include <pellucid/reference/brdf.hpp>
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
 #include <span>
+#include <string>
 
 namespace pellucid::reference {
 
