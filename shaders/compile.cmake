@@ -33,6 +33,12 @@ endif()
 # A driver knows neither the include extension nor #line with a file name.
 string(REGEX REPLACE "#extension GL_GOOGLE_include_directive[^\n]*" "" text "${text}")
 string(REGEX REPLACE "#line [^\n]*" "" text "${text}")
+# Mesa takes #extension only before the first statement; an include may bring it later.
+string(REGEX MATCHALL "#extension [^\n]*\n" extensions "${text}")
+list(REMOVE_DUPLICATES extensions)
+string(JOIN "" extensions ${extensions})
+string(REGEX REPLACE "#extension [^\n]*\n" "" text "${text}")
+string(REGEX REPLACE "(#version [^\n]*\n)" "\\1${extensions}" text "${text}")
 string(REGEX REPLACE "[ \t]+\n" "\n" text "${text}")
 string(REGEX REPLACE "\n[ \t\n]*\n" "\n" text "${text}")
 string(REGEX REPLACE "\n  +" "\n " text "${text}")

@@ -15,12 +15,6 @@ Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
         return Error{Errc::invalid_argument,
                      text("The buffer '%s' of %llu bytes gets %zu initial bytes", desc.debug_name,
                           static_cast<unsigned long long>(desc.size), desc.initial.size())};
-    if (has(desc.usage, rhi::BufferUsage::storage) && desc.size > info_.max_storage_buffer_bytes)
-        return Error{Errc::unsupported,
-                     text("The buffer '%s' has %llu bytes; %s takes at most %llu in a storage block", desc.debug_name,
-                          static_cast<unsigned long long>(desc.size), info_.name.c_str(),
-                          static_cast<unsigned long long>(info_.max_storage_buffer_bytes))};
-
     GLbitfield map = 0, storage = 0;
     if (desc.memory != rhi::Memory::device) {
         map = GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;

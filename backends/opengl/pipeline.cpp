@@ -106,6 +106,12 @@ Result<rhi::Group> Device::make_group(const rhi::GroupDesc& desc) {
         if (kind == rhi::BindingKind::uniform_buffer || kind == rhi::BindingKind::storage_buffer) {
             const BufferObject* buffer = objects_.buffers.find(given->buffer);
             if (!buffer) return wrong(text("has no living buffer at binding %u", binding));
+            if (kind == rhi::BindingKind::storage_buffer && buffer->size > info_.max_storage_buffer_bytes)
+                return Error{Errc::unsupported,
+                             text("The group '%s' has a buffer of %llu bytes at binding %u; %s takes at most %llu in a "
+                                  "storage block",
+                                  desc.debug_name, static_cast<unsigned long long>(buffer->size), binding,
+                                  info_.name.c_str(), static_cast<unsigned long long>(info_.max_storage_buffer_bytes))};
             made.names[i] = buffer->name;
         } else {
             const TextureObject* texture = objects_.textures.find(given->texture);

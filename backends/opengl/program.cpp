@@ -43,7 +43,8 @@ std::string specialised(const rhi::Shader& shader, std::span<const rhi::SpecCons
     std::string defines;
     for (const rhi::SpecConstant& c : constants) defines += text("#define PELLUCID_SPEC_%u %uu\n", c.id, c.value);
     defines += "#line 2\n";
-    const std::size_t line_end = out.find('\n');
+    const std::size_t version = out.find("#version");
+    const std::size_t line_end = out.find('\n', version == std::string::npos ? 0 : version);
     out.insert(line_end == std::string::npos ? out.size() : line_end + 1, defines);
     return out;
 }

@@ -16,38 +16,37 @@ std::uint64_t all_texels_bytes(const rhi::TextureDesc& desc) {
     return bytes * desc.layers * rhi::info(desc.format).bytes;
 }
 
-/// The sentence about what is wrong with `desc`; code `internal` where nothing is.
+/// The sentence about what is wrong with `desc`, if anything is.
 Result<void> check(const rhi::TextureDesc& desc, const rhi::DeviceInfo& limits) {
-    auto wrong = [&](Errc code, const std::string& what) {
+    auto wrong = [&](const std::string& what, Errc code = Errc::invalid_argument) {
         return Error{code, text("The texture '%s' %s", desc.debug_name, what.c_str())};
     };
     const auto& format = rhi::info(desc.format);
     const auto [width, height] = desc.size;
-    if (desc.format == rhi::Format::undefined) return wrong(Errc::invalid_argument, "has no format");
+    if (desc.format == rhi::Format::undefined) return wrong("has no format");
     if (width == 0 || height == 0 || desc.layers == 0 || desc.mips == 0)
-        return wrong(Errc::invalid_argument, text("has %u×%u texels, %u layers and %u levels; each must be at least 1",
-                                                  width, height, desc.layers, desc.mips));
+        return wrong(text("has %u×%u texels, %u layers and %u levels; each must be at least 1", width, height,
+                          desc.layers, desc.mips));
     if (std::max(width, height) > limits.max_texture_size)
-        return wrong(Errc::unsupported, text("has %u×%u texels; %s takes at most %u a side", width, height,
-                                             limits.name.c_str(), limits.max_texture_size));
+        return wrong(text("has %u×%u texels; %s takes at most %u a side", width, height, limits.name.c_str(),
+                          limits.max_texture_size),
+                     Errc::unsupported);
     if (desc.layers > limits.max_array_layers)
-        return wrong(Errc::unsupported, text("has %u layers; %s takes at most %u", desc.layers, limits.name.c_str(),
-                                             limits.max_array_layers));
+        return wrong(
+            text("has %u layers; %s takes at most %u", desc.layers, limits.name.c_str(), limits.max_array_layers),
+            Errc::unsupported);
     const auto max_mips = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
     if (desc.mips > max_mips)
-        return wrong(Errc::invalid_argument,
-                     text("has %u levels; %u×%u texels have at most %u", desc.mips, width, height, max_mips));
+        return wrong(text("has %u levels; %u×%u texels have at most %u", desc.mips, width, height, max_mips));
     if (desc.kind == rhi::TextureKind::flat && desc.layers != 1)
-        return wrong(Errc::invalid_argument, text("is flat and has %u layers; make it an array", desc.layers));
+        return wrong(text("is flat and has %u layers; make it an array", desc.layers));
     if (desc.kind == rhi::TextureKind::cube && (desc.layers != 6 || width != height))
-        return wrong(Errc::invalid_argument, text("is a cube of %u layers and %u×%u texels; it needs 6 square ones",
-                                                  desc.layers, width, height));
+        return wrong(
+            text("is a cube of %u layers and %u×%u texels; it needs 6 square ones", desc.layers, width, height));
     if (has(desc.usage, rhi::TextureUsage::storage) && !format.storage)
-        return wrong(Errc::invalid_argument,
-                     text("is for storage; the format %s cannot be stored to by shaders", format.name));
+        return wrong(text("is for storage; the format %s cannot be stored to by shaders", format.name));
     if (!desc.initial.empty() && desc.initial.size() != all_texels_bytes(desc))
-        return wrong(Errc::invalid_argument,
-                     text("gets %zu initial bytes; all its levels and layers have %llu", desc.initial.size(),
+        return wrong(text("gets %zu initial bytes; all its levels and layers have %llu", desc.initial.size(),
                           static_cast<unsigned long long>(all_texels_bytes(desc))));
     return {};
 }

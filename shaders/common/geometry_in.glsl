@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What `scene_geometry.vert` hands to a fragment shader, as load_surface wants it.
+// What scene_vertex.glsl hands to a fragment shader, as load_surface wants it.
 #ifndef PELLUCID_GEOMETRY_IN_GLSL
 #define PELLUCID_GEOMETRY_IN_GLSL
 #include "common/surface.glsl"
@@ -8,7 +8,7 @@ layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec4 in_tangent;
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec4 in_color;
-layout(location = 4) flat in uvec2 in_material_flags;  // material index, draw flags
+layout(location = 4) flat in uvec3 in_draw;  // material, PELLUCID_DRAW_* flags, global id of the draw's triangle 0
 
 Attributes fragment_attributes() {
     Attributes a;
@@ -18,7 +18,7 @@ Attributes fragment_attributes() {
     a.uv_dx = dFdxFine(in_uv);
     a.uv_dy = dFdyFine(in_uv);
     a.color = in_color;
-    a.front = gl_FrontFacing != ((in_material_flags.y & PELLUCID_DRAW_MIRRORED) != 0u);
+    a.front = gl_FrontFacing != ((in_draw.y & PELLUCID_DRAW_MIRRORED) != 0u);
     return a;
 }
 #endif

@@ -23,7 +23,7 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
         for (uint i = frame.light_ends.x; i < end; ++i) {
             LightRecord light = lights[i];
             EXACT vec3 d = light.position - p;
-            EXACT float d2 = max(dot3(d, d), 1e-12);
+            EXACT float d2 = max(dot3(d, d), 1e-6);
             EXACT float inverse = inversesqrt(d2);
             EXACT vec3 l = d * inverse;
             EXACT float n_l = dot3(normal, l);

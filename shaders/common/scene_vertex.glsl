@@ -8,7 +8,7 @@ layout(location = 0) out vec3 out_normal;
 layout(location = 1) out vec4 out_tangent;
 layout(location = 2) out vec4 out_uv;
 layout(location = 3) out vec4 out_color;
-layout(location = 4) flat out uvec2 out_material_flags;
+layout(location = 4) flat out uvec3 out_draw;
 
 void main() {
     DrawRecord draw = records[RECORD_INDEX];
@@ -31,5 +31,5 @@ void main() {
     }
     out_uv = vec4(v.u0, v.v0, v.uv1);
     out_color = needs(PELLUCID_NEED_VERTEX_COLORS) ? unpack_color(v.color) : vec4(1.0);
-    out_material_flags = uvec2(draw.material, draw.flags);
+    out_draw = uvec3(draw.material, draw.flags, draw.first_primitive);
 }

@@ -7,7 +7,7 @@
 #include "common/lighting.glsl"
 
 vec4 shade_fragment() {
-    Surface s = load_surface(materials[in_material_flags.x], fragment_attributes());
+    Surface s = load_surface(materials[in_draw.x], fragment_attributes());
     EXACT vec3 radiance = s.emissive;
     if (!s.unlit) {
         vec3 p = relative_from_depth(gl_FragCoord.xy, gl_FragCoord.z);

@@ -53,9 +53,9 @@ struct FrameParams {
     uint draw_count;
     uvec4 light_ends;      // one past the last directional, point and spot light (they are stored in this order)
 };
-PELLUCID_GPU_SIZE(FrameParams, 176)
+PELLUCID_GPU_SIZE(FrameParams, 160)
 PELLUCID_GPU_OFFSET(FrameParams, ambient, 96)
-PELLUCID_GPU_OFFSET(FrameParams, light_ends, 160)
+PELLUCID_GPU_OFFSET(FrameParams, light_ends, 144)
 
 // Group 0, binding PELLUCID_BIND_RECORDS: one an instance, in draw order; the base instance is its index.
 struct DrawRecord {

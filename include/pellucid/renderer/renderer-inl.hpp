@@ -26,7 +26,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     needs_ = scene_needs(scene, settings_);
     warnings_ = scene.warnings;
     PELLUCID_TRY(scene_, GpuScene<B>::create(*device_, scene, settings_));
-    PELLUCID_TRY(timer_, GpuTimer<B>::create(*device_));
+    PELLUCID_TRY(timer_, measure::GpuTimer<B>::create(*device_));
 
     using enum rhi::TextureUsage;
     auto target = [&](rhi::Format format, rhi::TextureUsage usage, const char* debug_name) {
@@ -168,9 +168,8 @@ Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
     timer_->begin_frame(*cmd);
     PELLUCID_CHECK(scene_->begin_frame(*cmd, camera, settings_));
     graph_.execute(*cmd, [&](const char* name, auto&& record) {
-        timer_->begin(*cmd, name);
+        const auto scope = timer_->scope(*cmd, name);
         record();
-        timer_->end(*cmd);
     });
     PELLUCID_TRY(last_, device_->submit());
     timer_->end_frame(last_);

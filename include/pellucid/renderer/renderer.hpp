@@ -82,7 +82,7 @@ private:
     std::optional<LightingPass<B>> lighting_pass_;
     std::optional<SortedForwardPass<B>> sorted_pass_;
     std::optional<TonemapPass<B>> tonemap_pass_;
-    std::optional<GpuTimer<B>> timer_;
+    std::optional<measure::GpuTimer<B>> timer_;
     rhi::Ticket last_ = rhi::Ticket::none;
     std::vector<std::string> warnings_;
     std::uint32_t pipelines_ = 0;

@@ -31,7 +31,8 @@ template <Backend B>
 [[nodiscard]] Result<Texels> download(typename B::Device& device, Texture texture, const TextureDesc& desc,
                                       std::uint32_t mip = 0, std::uint32_t layer = 0) {
     Texels out{.size = {std::max(1u, desc.size.width >> mip), std::max(1u, desc.size.height >> mip)},
-               .format = desc.format};
+               .format = desc.format,
+               .bytes = {}};
     const std::uint64_t bytes = std::uint64_t{out.size.width} * out.size.height * info(desc.format).bytes;
     Unique<typename B::Device, Buffer> buffer;
     PELLUCID_OWN(buffer, device,

@@ -87,7 +87,7 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
         };
         auto found = std::find_if(plan.arrays.begin(), plan.arrays.end(), fits);
         if (found == plan.arrays.end())
-            found = plan.arrays.insert(plan.arrays.end(), {.size = size, .srgb = w.srgb, .sampler = texture.sampler});
+            found = plan.arrays.insert(plan.arrays.end(), {.size = size, .srgb = w.srgb, .sampler = texture.sampler, .images = {}});
         if (!contains(*found, texture.image)) found->images.push_back(texture.image);
     }
     while (plan.arrays.size() > max_arrays) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The umbrella: the toolkit, and every backend that the program links.
+#include <pellucid/core/version.hpp>
+#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/rhi/with_backend.hpp>
+#include <pellucid/scene/framing.hpp>
+#include <pellucid/scene/gltf.hpp>
+#include <pellucid/scene/image_file.hpp>
+#if defined(PELLUCID_HAS_VULKAN)
+#include <pellucid/vulkan/vulkan.hpp>
+#endif
+#if defined(PELLUCID_HAS_OPENGL)
+#include <pellucid/opengl/opengl.hpp>
+#endif
+
+namespace pellucid {
+
+#if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
+/// The backends that this program links, best first.
+using Backends = rhi::BackendList<Vulkan, OpenGL>;
+#elif defined(PELLUCID_HAS_VULKAN)
+using Backends = rhi::BackendList<Vulkan>;
+#elif defined(PELLUCID_HAS_OPENGL)
+using Backends = rhi::BackendList<OpenGL>;
+#endif
+
+}  // namespace pellucid

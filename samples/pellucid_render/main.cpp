@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// pellucid-render: the command-line tool.  DESIGN.md has its contract.
+#include "options.hpp"
+#include "outputs.hpp"
+#include "run.hpp"
+#include <pellucid/pellucid.hpp>
+#include <cstdio>
+
+namespace {
+
+using namespace pellucid;
+
+int report(const Error& error) {
+    std::fprintf(stderr, "pellucid-render: %s\n", error.message.c_str());
+    switch (error.code) {
+        case Errc::invalid_argument: return static_cast<int>(Exit::usage);
+        case Errc::no_device:
+        case Errc::unsupported: return static_cast<int>(Exit::no_device);
+        case Errc::device_lost:
+        case Errc::out_of_memory: return static_cast<int>(Exit::device);
+        default: return static_cast<int>(Exit::input);
+    }
+}
+
+template <rhi::Backend... Bs>
+void list_devices(rhi::BackendList<Bs...>) {
+    auto list = []<rhi::Backend B>(std::type_identity<B>) {
+        unsigned index = 0;
+        for (const rhi::DeviceInfo& d : B::list())
+            std::printf("%s %u: %s (%s, %s)%s%s\n", B::name, index++, d.name.c_str(), d.api.c_str(), d.driver.c_str(),
+                        d.missing.empty() ? "" : ": not usable, lacks ", d.missing.c_str());
+        if (index == 0) std::printf("%s: no device\n", B::name);
+    };
+    (list(std::type_identity<Bs>{}), ...);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    const auto [options, finished] = parse_options(argc, argv);
+    if (finished) return *finished;
+    if (options.list_devices) {
+        list_devices(Backends{});
+        return static_cast<int>(Exit::done);
+    }
+    for (const std::string& file : output_files(options))
+        if (const Result<void> writable = check_writable(file); !writable) return report(writable.error());
+    const Result<Scene> scene = load_gltf(options.scene);
+    if (!scene) return report(scene.error());
+    const Result<Camera> camera = choose_camera(*scene, options);
+    if (!camera) return report(camera.error());
+    const Result<Result<int>> status =
+        rhi::with_backend(Backends{}, options.backend, [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> {
+            return run<B>(options, *scene, *camera);
+        });
+    if (!status) return report(status.error());
+    return *status ? **status : report(status->error());
+}

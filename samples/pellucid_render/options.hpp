@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+#include <pellucid/renderer/settings.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+/// What the command line asked for.
+struct Options {
+    std::string scene;
+    std::string backend = "auto";
+    std::string device;
+    bool list_devices = false;
+    std::string camera;  ///< index or name; empty: the scene's first, else one that frames the scene
+    pellucid::RenderSettings settings;
+    std::string out;
+    std::vector<std::pair<std::string, std::string>> aovs;  ///< name, file
+    std::string stats;
+    std::uint32_t frames = 1;
+    std::string compare;  ///< picture to compare with
+    std::string mask;     ///< picture of where to compare
+    std::string heatmap;
+    std::optional<double> error_budget;
+    bool validate = false;
+    bool gl_spirv = false;
+    std::string pipeline_cache;
+};
+
+/// Exit statuses of the command-line contract.
+enum class Exit : int { done = 0, usage = 2, input = 3, no_device = 4, device = 5, error_budget = 6 };
+
+/// Parses the command line.  Returns the exit status instead where the program is already done (--help, bad usage);
+/// what there is to say has been said.
+std::pair<Options, std::optional<int>> parse_options(int argc, char** argv);
