@@ -18,8 +18,8 @@ std::uint64_t all_texels_bytes(const rhi::TextureDesc& desc) {
 
 /// The sentence about what is wrong with `desc`, if anything is.
 Result<void> check(const rhi::TextureDesc& desc, const rhi::DeviceInfo& limits) {
-    auto wrong = [&](const std::string& what) {
-        return Error{Errc::invalid_argument, text("The texture '%s' %s", desc.debug_name, what.c_str())};
+    auto wrong = [&](const std::string& what, Errc code = Errc::invalid_argument) {
+        return Error{code, text("The texture '%s' %s", desc.debug_name, what.c_str())};
     };
     const auto& format = rhi::info(desc.format);
     const auto [width, height] = desc.size;
@@ -29,10 +29,12 @@ Result<void> check(const rhi::TextureDesc& desc, const rhi::DeviceInfo& limits) 
                           desc.layers, desc.mips));
     if (std::max(width, height) > limits.max_texture_size)
         return wrong(text("has %u×%u texels; %s takes at most %u a side", width, height, limits.name.c_str(),
-                          limits.max_texture_size));
+                          limits.max_texture_size),
+                     Errc::unsupported);
     if (desc.layers > limits.max_array_layers)
         return wrong(
-            text("has %u layers; %s takes at most %u", desc.layers, limits.name.c_str(), limits.max_array_layers));
+            text("has %u layers; %s takes at most %u", desc.layers, limits.name.c_str(), limits.max_array_layers),
+            Errc::unsupported);
     const auto max_mips = static_cast<std::uint32_t>(std::bit_width(std::max(width, height)));
     if (desc.mips > max_mips)
         return wrong(text("has %u levels; %u×%u texels have at most %u", desc.mips, width, height, max_mips));
