@@ -148,7 +148,10 @@ Context::~Context() {
         for (VkImageView view : o.attachment) now(VK_OBJECT_TYPE_IMAGE_VIEW, view);
         now(VK_OBJECT_TYPE_IMAGE, o.handle);
     });
-    samplers.for_each([&](auto, SamplerObject& o) { now(VK_OBJECT_TYPE_SAMPLER, o.handle); });
+    samplers.for_each([&](auto, SamplerObject& o) {
+        now(VK_OBJECT_TYPE_SAMPLER, o.mipmapped);
+        now(VK_OBJECT_TYPE_SAMPLER, o.one_level);
+    });
     pipelines.for_each([&](auto, PipelineObject& o) { now(VK_OBJECT_TYPE_PIPELINE, o.handle); });
     queries.for_each([&](auto, QueriesObject& o) { now(VK_OBJECT_TYPE_QUERY_POOL, o.handle); });
     destroy_frames();

@@ -7,12 +7,12 @@
 namespace pellucid::vulkan {
 
 Result<void> Context::init_frames(std::uint32_t count) {
-    VkSemaphoreTypeCreateInfo type = {VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    const VkSemaphoreCreateInfo info = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type, 0};
-    if (const VkResult r = vk.CreateSemaphore(device, &info, nullptr, &timeline))
-        return fail(r, "vkCreateSemaphore", "timeline");
-    set_name(VK_OBJECT_TYPE_SEMAPHORE, timeline, "timeline");
+    const VkFenceCreateInfo info = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    for (VkFence& fence : fences) {
+        if (const VkResult r = vk.CreateFence(device, &info, nullptr, &fence))
+            return fail(r, "vkCreateFence", "ticket");
+        set_name(VK_OBJECT_TYPE_FENCE, fence, "ticket");
+    }
     frame_count = count;
     for (std::uint32_t i = 0; i < count; ++i) {
         Frame& f = frames[i];
@@ -46,7 +46,8 @@ void Context::destroy_frames() {
         f.staging.destroy(*this);
         if (f.pool) vk.DestroyCommandPool(device, f.pool, nullptr);
     }
-    if (timeline) vk.DestroySemaphore(device, timeline, nullptr);
+    for (VkFence fence : fences)
+        if (fence) vk.DestroyFence(device, fence, nullptr);
 }
 
 Result<void> Context::wait(std::uint64_t ticket) {
@@ -55,21 +56,21 @@ Result<void> Context::wait(std::uint64_t ticket) {
     if (ticket > submitted)
         return Error{Errc::invalid_argument, "wait: ticket " + std::to_string(ticket) +
                                                  " was never given out; the last is " + std::to_string(submitted)};
-    VkSemaphoreWaitInfo info = {VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
-    info.semaphoreCount = 1;
-    info.pSemaphores = &timeline;
-    info.pValues = &ticket;
-    if (const VkResult r = vk.WaitSemaphores(device, &info, std::numeric_limits<std::uint64_t>::max()))
-        return fail(r, "vkWaitSemaphores", "timeline");
+    const VkFence fence = fences[ticket % fence_count];
+    if (const VkResult r = vk.WaitForFences(device, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()))
+        return fail(r, "vkWaitForFences", "ticket");
+    // A fence covers everything submitted before it.
     completed = std::max(completed, ticket);
     return {};
 }
 
 void Context::poll() {
-    std::uint64_t value = 0;
-    const VkResult r = vk.GetSemaphoreCounterValue(device, timeline, &value);
-    if (r == VK_ERROR_DEVICE_LOST) lost = true;
-    if (r == VK_SUCCESS) completed = std::max(completed, std::min(value, submitted));
+    while (completed < submitted) {
+        const VkResult r = vk.GetFenceStatus(device, fences[(completed + 1) % fence_count]);
+        if (r == VK_ERROR_DEVICE_LOST) lost = true;
+        if (r != VK_SUCCESS) return;
+        ++completed;
+    }
 }
 
 void Context::retire(Garbage item) {
@@ -131,6 +132,12 @@ void Context::destroy_now(const Garbage& item) {
 }
 
 Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
+    // The tracked layouts and the upload's state are those after commands that would never run: once a step of this
+    // fails, nothing of the device can be trusted.
+    const auto broken = [this](VkResult result, const char* what) {
+        lost = true;
+        return fail(result, what, "submission");
+    };
     VkCommandBufferSubmitInfo batch[2] = {};
     std::uint32_t count = 0;
     const auto add = [&](VkCommandBuffer commands) {
@@ -139,31 +146,32 @@ Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
     };
     if (upload.recording) {
         Upload::Piece& piece = upload.pieces[upload.current];
-        if (const VkResult r = vk.EndCommandBuffer(piece.commands)) return fail(r, "vkEndCommandBuffer", "upload");
+        if (const VkResult r = vk.EndCommandBuffer(piece.commands)) return broken(r, "vkEndCommandBuffer");
         add(piece.commands);
     }
-    if (frame_commands) add(frame_commands);
-    VkSemaphoreSubmitInfo signal = {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
-    signal.semaphore = timeline;
-    signal.value = submitted + 1;
-    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    if (frame_commands) {
+        if (const VkResult r = vk.EndCommandBuffer(frame_commands)) return broken(r, "vkEndCommandBuffer");
+        add(frame_commands);
+    }
+    const VkFence fence = fences[(submitted + 1) % fence_count];
+    if (submitted >= fence_count) {
+        if (auto waited = wait(submitted + 1 - fence_count); !waited) {
+            lost = true;
+            return waited.error();
+        }
+    }
+    if (const VkResult r = vk.ResetFences(device, 1, &fence)) return broken(r, "vkResetFences");
     VkSubmitInfo2 info = {VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = count;
     info.pCommandBufferInfos = batch;
-    info.signalSemaphoreInfoCount = 1;
-    info.pSignalSemaphoreInfos = &signal;
-    const VkResult r = vk.QueueSubmit2(queue, 1, &info, VK_NULL_HANDLE);
+    if (const VkResult r = vk.QueueSubmit2(queue, 1, &info, fence)) return broken(r, "vkQueueSubmit2");
+    ++submitted;
     if (upload.recording) {
-        upload.pieces[upload.current].ticket = submitted + (r == VK_SUCCESS ? 1 : 0);
+        upload.pieces[upload.current].ticket = submitted;
         upload.recording = false;
         upload.current ^= 1u;
         upload.used = 0;
     }
-    if (r != VK_SUCCESS) {
-        lost = true;  // the tracked layouts are those after commands that never run: nothing can be trusted
-        return fail(r, "vkQueueSubmit2", frame_commands ? "frame" : "upload");
-    }
-    ++submitted;
     // An upload on its own, in the midst of a frame, does not end the use of what the frame has recorded.
     if (frame_commands || !recording)
         for (Garbage& item : garbage)
@@ -201,11 +209,6 @@ Result<rhi::Ticket> Device::submit() {
     if (!c.recording) return Error{Errc::invalid_argument, "submit: no frame was begun"};
     commands_.host_barrier();
     Frame& frame = c.frame();
-    if (const VkResult r = c.vk.EndCommandBuffer(frame.commands)) {
-        c.recording = false;
-        c.lost = true;  // the tracked layouts are those after commands that never run: nothing can be trusted
-        return c.fail(r, "vkEndCommandBuffer", "frame");
-    }
     const Result<std::uint64_t> ticket = c.submit(frame.commands);
     c.recording = false;
     if (!ticket) return ticket.error();

@@ -144,7 +144,7 @@ Result<rhi::Group> Device::make_group(const rhi::GroupDesc& desc) {
                 if (!sampler) return wrong(layout.binding, "its sampler was destroyed or never given");
                 if (!texture->sampled)
                     return wrong(layout.binding, "its texture was made without TextureUsage::sampled");
-                images[count] = {sampler->handle, texture->sampled, texture->sampled_layout()};
+                images[count] = {sampler->of(*texture), texture->sampled, texture->sampled_layout()};
             } else {
                 if (given->mip >= texture->storage.size())
                     return wrong(layout.binding,

@@ -34,7 +34,6 @@ constexpr Feature<VkPhysicalDeviceVulkan11Features> required_v11[] = {
     PELLUCID_FEATURE(VkPhysicalDeviceVulkan11Features, shaderDrawParameters),
 };
 constexpr Feature<VkPhysicalDeviceVulkan12Features> required_v12[] = {
-    PELLUCID_FEATURE(VkPhysicalDeviceVulkan12Features, timelineSemaphore),
     PELLUCID_FEATURE(VkPhysicalDeviceVulkan12Features, hostQueryReset),
 };
 constexpr Feature<VkPhysicalDeviceVulkan13Features> required_v13[] = {

@@ -43,6 +43,8 @@ std::string fault(const rhi::TextureDesc& desc) {
     if (desc.kind == rhi::TextureKind::cube && (desc.layers != 6 || width != height))
         return "a cube has 6 square layers, not " + std::to_string(desc.layers) + " of " + std::to_string(width) + "x" +
                std::to_string(height);
+    if (has(desc.usage, TextureUsage::storage) && !rhi::info(desc.format).storage)
+        return std::string("the format ") + rhi::info(desc.format).name + " cannot be a storage image";
     if (desc.usage == TextureUsage::none) return "its usage is empty";
     if (!desc.initial.empty() && desc.initial.size() != content_bytes(desc))
         return std::to_string(desc.initial.size()) + " bytes of initial data; all texels have " +
@@ -192,22 +194,33 @@ Result<rhi::Sampler> Device::make_sampler(const rhi::SamplerDesc& desc) {
     VkSamplerCreateInfo info = {VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO};
     info.magFilter = to_vulkan(desc.mag);
     info.minFilter = to_vulkan(desc.min);
-    info.mipmapMode = desc.mipmapped && desc.mip == rhi::Filter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR
-                                                                        : VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    info.mipmapMode = desc.mip == rhi::Filter::linear ? VK_SAMPLER_MIPMAP_MODE_LINEAR : VK_SAMPLER_MIPMAP_MODE_NEAREST;
     info.addressModeU = to_vulkan(desc.wrap_u);
     info.addressModeV = to_vulkan(desc.wrap_v);
     info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    // Level 0 only: not 0, or every sample would count as magnified and `min` would never be used.
-    info.maxLod = desc.mipmapped ? VK_LOD_CLAMP_NONE : 0.25f;
     SamplerObject object;
-    if (const VkResult r = c.vk.CreateSampler(c.device, &info, nullptr, &object.handle))
+    if (desc.mipmapped) {
+        info.maxLod = VK_LOD_CLAMP_NONE;
+        if (const VkResult r = c.vk.CreateSampler(c.device, &info, nullptr, &object.mipmapped))
+            return c.fail(r, "vkCreateSampler", desc.debug_name);
+        c.set_name(VK_OBJECT_TYPE_SAMPLER, object.mipmapped, desc.debug_name);
+    }
+    info.mipmapMode = VK_SAMPLER_MIPMAP_MODE_NEAREST;
+    // Level 0 only: not 0, or every sample would count as magnified and `min` would never be used.
+    info.maxLod = 0.25f;
+    if (const VkResult r = c.vk.CreateSampler(c.device, &info, nullptr, &object.one_level)) {
+        c.retire(VK_OBJECT_TYPE_SAMPLER, object.mipmapped);
         return c.fail(r, "vkCreateSampler", desc.debug_name);
-    c.set_name(VK_OBJECT_TYPE_SAMPLER, object.handle, desc.debug_name);
+    }
+    c.set_name(VK_OBJECT_TYPE_SAMPLER, object.one_level, desc.debug_name);
     return c.samplers.insert(object);
 }
 
 void Device::destroy(rhi::Sampler sampler) {
-    if (alive(sampler)) context_.retire(VK_OBJECT_TYPE_SAMPLER, context_.samplers.erase(sampler).handle);
+    if (!alive(sampler)) return;
+    const SamplerObject object = context_.samplers.erase(sampler);
+    context_.retire(VK_OBJECT_TYPE_SAMPLER, object.mipmapped);
+    context_.retire(VK_OBJECT_TYPE_SAMPLER, object.one_level);
 }
 
 }  // namespace pellucid::vulkan

@@ -56,16 +56,19 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
         const auto h = texels.template at<Half4>(x, y);
         return glm::vec3(half_to_float(h.v[0]), half_to_float(h.v[1]), half_to_float(h.v[2]));
     };
-    if (name == "emissive" || (name == "normal" && !compact)) {
+    if (name == "emissive") {
         for_each(half3);
+    } else if (name == "normal" && !compact) {
+        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::vec3(glm::dmat3(camera.world_from_view) * glm::dvec3(half3(x, y))); });
     } else if (name == "normal") {
         for_each([&](std::uint32_t x, std::uint32_t y) {
-            return glm::vec3(reference::direction_from_oct32<double>(texels.template at<std::uint32_t>(x, y)));
+            const auto n = reference::direction_from_oct32<double>(texels.template at<std::uint32_t>(x, y));
+            return glm::vec3(glm::dmat3(camera.world_from_view) * n);
         });
     } else if (name == "base_color") {
         for_each([&](std::uint32_t x, std::uint32_t y) {
             const auto b = texels.template at<Byte4>(x, y);
-            auto linear = [&](int i) { return static_cast<float>(reference::linear_from_srgb(b.v[i] / 255.0)); };
+            auto linear = [&](int i) { return static_cast<float>(reference::linear_from_srgb8<double>(b.v[i])); };
             return glm::vec3(linear(0), linear(1), linear(2));
         });
     } else if (name == "occlusion" && compact) {

@@ -79,7 +79,9 @@ vec3 reflect_gltf(Shading s, vec3 l, float n_l) {
 // The source document's own terms, kept to be measured: NoH²(a² - 1) + 1, Schlick's G with k = (r + 1)²/8, and an
 // epsilon in the denominator.  Its guards are its own; roughness 0 is not finite.
 vec3 reflect_seed(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
-    vec3 h = unit(s.view + l);
+    EXACT vec3 sum = s.view + l;
+    if (dot3(sum, sum) < 1e-12) return vec3(0.0);
+    vec3 h = unit(sum);
     float a = s.roughness * s.roughness;
     float a2 = a * a;
     float n_h = max(dot3(s.normal, h), 0.0);
@@ -96,20 +98,30 @@ vec3 reflect_seed(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
     return r * n_l;
 }
 
-// Blinn–Phong as the source document's forward pass has it: base N·L + (N·H)^p, p = 2/a² - 2 (the exponent whose lobe
-// matches a GGX of the same roughness), white highlight.
-vec3 reflect_blinn_phong(Shading s, vec3 base, vec3 l, float n_l) {
-    vec3 h = unit(s.view + l);
-    EXACT float p = max(quotient(2.0, s.alpha2) - 2.0, 1.0);
-    float n_h = max(dot3(s.normal, h), 0.0);
-    float highlight = n_h > 0.0 ? pow(n_h, p) : 0.0;
-    EXACT vec3 r = base * n_l + vec3(highlight);
-    return r * INV_PI;
+// Blinn–Phong in radiometric units: diffuse (1 - metallic) base/pi, specular F0 (s + 2)/(8 pi) (N·H)^s with
+// s = 2/a² - 2, whose peak is that of GGX.  (N·H)^s = exp(s/2 log(1 - |N×H|²)): near the axis N·H has no digits left.
+vec3 reflect_blinn_phong(Shading s, vec3 l, float n_l) {
+    EXACT vec3 h = s.view + l;
+    EXACT float hh = dot3(h, h);
+    EXACT vec3 r = s.diffuse;
+    if (hh >= 1e-12 && dot3(s.normal, h) > 0.0) {
+        EXACT vec3 c = cross3(s.normal, h);
+        EXACT float sin2 = min(quotient(dot3(c, c), hh), 0.9999999);
+        EXACT float series = sin2 * (1.0 / 3.0) + 0.5;
+        series = series * sin2 + 1.0;
+        series = -(series * sin2);
+        EXACT float logarithm = sin2 < 0.01 ? series : log(1.0 - sin2);
+        EXACT float p = quotient(2.0, s.alpha2);
+        EXACT float lobe = exp((0.5 * p - 1.0) * logarithm);
+        lobe = lobe * p * (0.125 * INV_PI);
+        r = r + s.f0 * lobe;
+    }
+    return r * n_l;
 }
 
 vec3 reflectance(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
     if (BRDF == PELLUCID_BRDF_SEED) return reflect_seed(s, base, metallic, l, n_l);
-    if (BRDF == PELLUCID_BRDF_BLINN_PHONG) return reflect_blinn_phong(s, base, l, n_l);
+    if (BRDF == PELLUCID_BRDF_BLINN_PHONG) return reflect_blinn_phong(s, l, n_l);
     return reflect_gltf(s, l, n_l);
 }
 #endif

@@ -21,5 +21,16 @@ float material_metallic(uint m) {
 }
 uint material_flags(uint m) { return m >> 24u; }
 
+// Rotations between view space and world space (the classic layout stores world positions).
+vec3 world_from_view(vec3 v) {
+    precise vec3 w = frame.world_x.xyz * v.x;
+    w = w + frame.world_y.xyz * v.y;
+    w = w + frame.world_z.xyz * v.z;
+    return w;
+}
+vec3 view_from_world(vec3 w) {
+    return vec3(dot3_always(frame.world_x.xyz, w), dot3_always(frame.world_y.xyz, w), dot3_always(frame.world_z.xyz, w));
+}
+
 uint surface_flags(Surface s) { return s.unlit ? PELLUCID_GBUFFER_UNLIT : 0u; }
 #endif

@@ -17,7 +17,7 @@ PASS_TEXTURE(PELLUCID_GBUFFER_DEPTH) sampler2D gbuffer_depth;
 
 struct Pixel {
     Surface surface;
-    vec3 position;  // relative
+    vec3 position;  // view space
     bool covered;
 };
 
@@ -36,7 +36,7 @@ Pixel read_gbuffer(ivec2 at) {
     p.surface.unlit = m.a > 0.0;
     p.surface.normal = unit(texelFetch(gbuffer_normal, at, 0).xyz);
     EXACT vec3 relative = texelFetch(gbuffer_position, at, 0).xyz - frame.camera_position;
-    p.position = relative;
+    p.position = view_from_world(relative);
 #else
     uint m = texelFetch(gbuffer_material, at, 0).r;
     p.surface.metallic = material_metallic(m);
@@ -44,7 +44,7 @@ Pixel read_gbuffer(ivec2 at) {
     p.surface.occlusion = base.a;
     p.surface.unlit = (material_flags(m) & PELLUCID_GBUFFER_UNLIT) != 0u;
     p.surface.normal = octahedral_decode(texelFetch(gbuffer_normal, at, 0).r);
-    p.position = relative_from_depth(vec2(at) + 0.5, depth);
+    p.position = view_from_depth(vec2(at) + 0.5, depth);
 #endif
     p.surface.emissive = needs(PELLUCID_NEED_EMISSIVE) ? texelFetch(gbuffer_emissive, at, 0).rgb : vec3(0.0);
     return p;

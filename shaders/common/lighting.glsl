@@ -7,7 +7,7 @@
 #include "common/scene.glsl"
 #include "common/brdf.glsl"
 
-// Radiance towards the eye at relative point `p`.  `to_eye` is unit.
+// Radiance towards the eye at the point `p` in view space.  `to_eye` is unit.
 vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, vec3 p, vec3 to_eye) {
     Shading s = make_shading(base, metallic, roughness, normal, to_eye);
     EXACT vec3 sum = vec3(0.0);

@@ -46,9 +46,9 @@ Attributes rebuild_attributes(uint first_record, uint primitive, ivec2 pixel, ou
     Vertex v0 = vertices[draw.first_vertex + indices[at]];
     Vertex v1 = vertices[draw.first_vertex + indices[at + 1u]];
     Vertex v2 = vertices[draw.first_vertex + indices[at + 2u]];
-    Triangle t = Triangle(clip_position(relative_position(draw, v0.position)).xyw,
-                          clip_position(relative_position(draw, v1.position)).xyw,
-                          clip_position(relative_position(draw, v2.position)).xyw);
+    Triangle t = Triangle(clip_position(view_position(draw, v0.position)).xyw,
+                          clip_position(view_position(draw, v1.position)).xyw,
+                          clip_position(view_position(draw, v2.position)).xyw);
     float facing;
     float ignored;
     vec3 w = barycentrics(t, vec2(pixel) + 0.5, facing);

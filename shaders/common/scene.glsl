@@ -17,8 +17,8 @@ SCENE_BUFFER_READ(PELLUCID_BIND_INDICES, IndexBuffer) { uint indices[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_MATERIALS, MaterialBuffer) { MaterialRecord materials[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_LIGHTS, LightBuffer) { LightRecord lights[]; };
 
-// Object space → relative world space.
-vec3 relative_position(DrawRecord draw, vec3 p) {
+// Object space → view space.
+vec3 view_position(DrawRecord draw, vec3 p) {
     precise vec3 r = draw.axis_x * p.x;
     r = r + draw.axis_y * p.y;
     r = r + draw.axis_z * p.z;
@@ -26,17 +26,8 @@ vec3 relative_position(DrawRecord draw, vec3 p) {
     return r;
 }
 
-// Relative world space → view space.
-vec3 view_position(vec3 r) {
-    precise vec3 e = frame.view_x.xyz * r.x;
-    e = e + frame.view_y.xyz * r.y;
-    e = e + frame.view_z.xyz * r.z;
-    return e;
-}
-
-// Relative world space → clip space, reversed depth.
-vec4 clip_position(vec3 r) {
-    precise vec3 e = view_position(r);
+// View space → clip space, reversed depth.
+vec4 clip_position(vec3 e) {
     precise float x = e.x * frame.clip_scale.x;
     x = x + frame.clip_scale.z;
     precise float y = e.y * frame.clip_scale.y;
@@ -48,9 +39,9 @@ vec4 clip_position(vec3 r) {
     return vec4(x, y, z, w);
 }
 
-// Pixel centre and stored depth → relative world space.  Reversed depth needs no cancelling difference, so the error is
-// a few ulp at any distance (docs: conventions).  Precondition: depth > 0.
-vec3 relative_from_depth(vec2 fragcoord, float depth) {
+// Pixel centre and stored depth → view space.  Reversed depth needs no cancelling difference, so the error is a few ulp
+// at any distance.  Precondition: depth > 0.
+vec3 view_from_depth(vec2 fragcoord, float depth) {
     precise float denominator = depth * frame.clip_depth.z;
     denominator = denominator - frame.clip_depth.x;
     precise float numerator = depth * frame.clip_depth.w;
@@ -66,14 +57,13 @@ vec3 relative_from_depth(vec2 fragcoord, float depth) {
     ex = (ex - frame.clip_scale.z) * (1.0 / frame.clip_scale.x);
     precise float ey = ny * w;
     ey = (ey - frame.clip_scale.w) * (1.0 / frame.clip_scale.y);
-    vec3 e = vec3(ex, ey, ez);
-    return vec3(dot3_always(frame.view_x.xyz, e), dot3_always(frame.view_y.xyz, e), dot3_always(frame.view_z.xyz, e));
+    return vec3(ex, ey, ez);
 }
 
-// Unit direction from a relative point to the eye (perspective) or against the view direction (orthographic).
-vec3 direction_to_eye(vec3 r) {
-    if (frame.clip_depth.z == 0.0) return vec3(frame.view_x.z, frame.view_y.z, frame.view_z.z);
-    return unit(-r);
+// Unit direction from a point in view space to the eye: orthographic views are seen from infinitely far away.
+vec3 direction_to_eye(vec3 p) {
+    if (frame.clip_depth.z == 0.0) return vec3(0.0, 0.0, 1.0);
+    return unit(-p);
 }
 
 vec4 unpack_color(uvec2 color) { return vec4(unpackUnorm2x16(color.x), unpackUnorm2x16(color.y)); }

@@ -13,7 +13,7 @@ layout(location = 4) flat out uvec3 out_draw;
 void main() {
     DrawRecord draw = records[RECORD_INDEX];
     Vertex v = vertices[VERTEX_INDEX];
-    gl_Position = clip_position(relative_position(draw, v.position));
+    gl_Position = clip_position(view_position(draw, v.position));
 
     precise vec3 n = draw.normal_x * v.normal.x;
     n = n + draw.normal_y * v.normal.y;

@@ -10,7 +10,7 @@ vec4 shade_fragment() {
     Surface s = load_surface(materials[in_draw.x], fragment_attributes());
     EXACT vec3 radiance = s.emissive;
     if (!s.unlit) {
-        vec3 p = relative_from_depth(gl_FragCoord.xy, gl_FragCoord.z);
+        vec3 p = view_from_depth(gl_FragCoord.xy, gl_FragCoord.z);
         radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, p,
                                                 direction_to_eye(p));
     }

@@ -16,8 +16,8 @@ SCENE_TEXTURE(PELLUCID_BIND_TEXTURES + 7) sampler2DArray textures_7;
 
 // What rasterisation or a compute pass interpolates over a triangle.  Derivatives are per pixel, of (uv0, uv1).
 struct Attributes {
-    vec3 normal;   // relative space, not unit
-    vec4 tangent;  // xyz relative space, not unit; w = ±1
+    vec3 normal;   // view space, not unit
+    vec4 tangent;  // xyz view space, not unit; w = ±1
     vec4 uv;       // uv0 in xy, uv1 in zw
     vec4 uv_dx;
     vec4 uv_dy;

@@ -14,7 +14,7 @@ layout(location = 4) out vec4 out_emissive;
 void main() {
     Surface s = load_surface(materials[in_draw.x], fragment_attributes());
     if (s.discarded) discard;
-    EXACT vec3 world = relative_from_depth(gl_FragCoord.xy, gl_FragCoord.z) + frame.camera_position;
+    EXACT vec3 world = world_from_view(view_from_depth(gl_FragCoord.xy, gl_FragCoord.z)) + frame.camera_position;
     out_position = vec4(world, 1.0);
     out_normal = vec4(s.normal, 0.0);
     out_base = vec4(s.base, 1.0);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The scene as every stage of every pass sees it (vertex pulling: any stage, compute too, can evaluate any surface).
-// Space "relative" is world space with the camera subtracted in double on the CPU: no cancellation on the GPU.
+// Everything is in view space: an instance's view_from_object and every light are put there in double on the CPU, so no
+// shader subtracts or rotates large coordinates.
 #ifndef PELLUCID_GPU_SCENE_H
 #define PELLUCID_GPU_SCENE_H
 #include "pellucid/gpu/types.h"
@@ -39,9 +40,9 @@ PELLUCID_GPU_BEGIN
 
 // Group 0, binding PELLUCID_BIND_FRAME.
 struct FrameParams {
-    vec4 view_x;           // columns of view_from_relative (a rotation); w unused
-    vec4 view_y;
-    vec4 view_z;
+    vec4 world_x;          // columns of world_from_view (its rotation); w unused
+    vec4 world_y;
+    vec4 world_z;
     vec4 clip_scale;       // sx, sy, ox, oy of ClipFromView
     vec4 clip_depth;       // zz, zw, wz, ww of ClipFromView
     vec4 pixel;            // 2/width, 2/height, width, height
@@ -59,7 +60,7 @@ PELLUCID_GPU_OFFSET(FrameParams, light_ends, 144)
 
 // Group 0, binding PELLUCID_BIND_RECORDS: one an instance, in draw order; the base instance is its index.
 struct DrawRecord {
-    vec3 axis_x;  // columns of relative_from_object
+    vec3 axis_x;  // columns of view_from_object
     uint first_vertex;
     vec3 axis_y;
     uint first_index;
@@ -67,7 +68,7 @@ struct DrawRecord {
     uint first_primitive;  // global primitive id of the draw's triangle 0; grows with the record's index
     vec3 origin;
     uint material;
-    vec3 normal_x;  // columns of the inverse transpose of relative_from_object's 3×3 part
+    vec3 normal_x;  // columns of the inverse transpose of view_from_object's 3×3 part, scaled
     uint flags;     // PELLUCID_DRAW_*
     vec3 normal_y;
     uint triangle_count;
@@ -125,9 +126,9 @@ PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 
 // Scene group, PELLUCID_BIND_LIGHTS: directional, then point, then spot lights.
 struct LightRecord {
-    vec3 position;  // [m] relative; unused for directional lights
+    vec3 position;  // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited
-    vec3 to_light;  // unit, against the way the light travels: directional and spot
+    vec3 to_light;  // view, unit, against the way the light travels: directional and spot
     float spot_scale;  // 1 / (cos inner - cos outer)
     vec3 intensity;  // colour times [lx] or [cd]
     float spot_edge;  // 1 - cos outer

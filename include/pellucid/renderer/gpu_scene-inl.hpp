@@ -36,9 +36,11 @@ Result<void> GpuScene<B>::make_textures(typename B::Device& device, const Scene&
     for (const TextureArrayPlan& array : plan.arrays) {
         // All layers of mip 0, then of mip 1, …: the order of TextureDesc::initial.
         std::vector<std::vector<Image8>> chains;
-        for (const std::uint32_t image : array.images)
-            chains.push_back(mip_chain(resized(scene.images[image].pixels, array.size, array.srgb), array.srgb,
-                                       array.sampler.mipmapped));
+        const MipContent content = array.srgb ? MipContent::color_with_alpha : MipContent::data;
+        for (const std::uint32_t image : array.images) {
+            Image8 pixels = resized(scene.images[image].pixels, array.size, array.srgb);
+            chains.push_back(array.sampler.mipmapped ? make_mipmaps(pixels, content) : std::vector<Image8>{pixels});
+        }
         std::vector<std::byte> texels;
         for (std::size_t mip = 0; mip < chains[0].size(); ++mip)
             for (const auto& chain : chains) {
@@ -79,7 +81,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         const bool blend = material.alpha_mode == AlphaMode::blend;
         if (mesh.indices.empty() || (blend && settings.transparency == Transparency::none)) continue;
         Placed p;
-        p.record = gpu_draw_record(instance.world_from_object);
+        place(p.record, instance.world_from_object);  // for the mirroring; the view's matrices come every frame
         p.record.first_vertex = meshes.first_vertex[instance.mesh];
         p.record.first_index = meshes.first_index[instance.mesh];
         p.record.first_primitive = primitive;
@@ -87,7 +89,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         p.record.material = mesh.material;
         primitive += p.record.triangle_count;
         triangles_ += p.record.triangle_count;
-        p.origin = glm::dvec3(instance.world_from_object[3]);
+        p.world_from_object = instance.world_from_object;
         const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.lower) + glm::dvec3(mesh.upper));
         p.center = glm::dvec3(instance.world_from_object * glm::dvec4(middle, 1));
         const bool mirrored = (p.record.flags & PELLUCID_DRAW_MIRRORED) != 0;
@@ -186,16 +188,17 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
 }
 
 template <rhi::Backend B>
-void GpuScene<B>::update_lights(typename B::Commands& cmd, const glm::dvec3& eye) {
-    if (light_sources_.empty() || (lights_written_ && eye == lights_from_)) return;
-    for (std::size_t i = 0; i < light_sources_.size(); ++i) light_records_[i] = gpu_light(light_sources_[i], eye);
+void GpuScene<B>::update_lights(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world) {
+    if (light_sources_.empty() || (lights_written_ && camera.world_from_view == lights_from_)) return;
+    for (std::size_t i = 0; i < light_sources_.size(); ++i)
+        light_records_[i] = gpu_light(light_sources_[i], view_from_world);
     const auto bytes = rhi::bytes_of(std::span<const gpu::LightRecord>(light_records_));
     cmd.begin_copy({.uses = {rhi::use(lights_, rhi::Access::copy_write)}, .name = "lights"});
     constexpr std::size_t step = 65536 / sizeof(gpu::LightRecord) * sizeof(gpu::LightRecord);
     for (std::size_t at = 0; at < bytes.size(); at += step)
         cmd.update(lights_, at, bytes.subspan(at, std::min(step, bytes.size() - at)));
     cmd.end_copy();
-    lights_from_ = eye;
+    lights_from_ = camera.world_from_view;
     lights_written_ = true;
 }
 
@@ -203,17 +206,13 @@ template <rhi::Backend B>
 gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSettings& settings) const {
     gpu::FrameParams f{};
     const glm::dmat4& w = camera.world_from_view;
-    // Columns of the rotation view_from_relative are rows of world_from_view.
-    auto row = [&](int i) {
-        return gpu::vec4{static_cast<float>(w[0][i]), static_cast<float>(w[1][i]), static_cast<float>(w[2][i]), 0};
-    };
-    f.view_x = row(0);
-    f.view_y = row(1);
-    f.view_z = row(2);
-    const ClipFromView clip = clip_from_view(camera, settings.size);
     auto narrow = [](double a, double b, double c, double d) {
         return gpu::vec4{static_cast<float>(a), static_cast<float>(b), static_cast<float>(c), static_cast<float>(d)};
     };
+    f.world_x = narrow(w[0].x, w[0].y, w[0].z, 0);
+    f.world_y = narrow(w[1].x, w[1].y, w[1].z, 0);
+    f.world_z = narrow(w[2].x, w[2].y, w[2].z, 0);
+    const ClipFromView clip = clip_from_view(camera, settings.size);
     f.clip_scale = narrow(clip.sx, clip.sy, clip.ox, clip.oy);
     f.clip_depth = narrow(clip.zz, clip.zw, clip.wz, clip.ww);
     f.pixel = narrow(2.0 / settings.size.width, 2.0 / settings.size.height, settings.size.width, settings.size.height);
@@ -229,20 +228,20 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
 
 template <rhi::Backend B>
 Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings) {
-    const glm::dvec3 eye(camera.world_from_view[3]);
-    const glm::dvec3 back(camera.world_from_view[2]);
-    update_lights(cmd, eye);
+    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
+    update_lights(cmd, camera, view_from_world);
     const gpu::FrameParams frame = frame_params(camera, settings);
     PELLUCID_TRY(binding_.frame, cmd.upload_uniforms(rhi::bytes_of(frame)));
     PELLUCID_TRY(binding_.records, cmd.upload_records(std::max(1u, instances()), sizeof(gpu::DrawRecord)));
     std::byte* out = binding_.records.bytes.data();
     for (const Placed& p : placed_) {
         gpu::DrawRecord record = p.record;
-        record.origin = to_gpu(p.origin - eye);
+        place(record, view_from_world * p.world_from_object);
         std::memcpy(out, &record, sizeof record);
         out += sizeof record;
     }
-    for (SortedItem& item : sorted_) item.view_depth = glm::dot(eye - placed_[item.draw.record].center, back);
+    for (SortedItem& item : sorted_)
+        item.view_depth = -(view_from_world * glm::dvec4(placed_[item.draw.record].center, 1)).z;
     sort_back_to_front(sorted_);
     split_sides(sorted_, translucent_, mirrored_);
     return {};

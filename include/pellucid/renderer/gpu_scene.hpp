@@ -42,9 +42,9 @@ public:
 
 private:
     struct Placed {
-        gpu::DrawRecord record;        ///< all but origin, which depends on the camera
-        glm::dvec3 origin{0, 0, 0};    ///< [m] world
-        glm::dvec3 center{0, 0, 0};    ///< [m] world, of the bounds
+        gpu::DrawRecord record;         ///< all but the matrices, which depend on the camera
+        glm::dmat4 world_from_object{1.0};
+        glm::dvec3 center{0, 0, 0};     ///< [m] world, of the bounds
         DrawItem item;
         bool translucent = false;
     };
@@ -53,7 +53,7 @@ private:
                                            std::span<const T> values, rhi::BufferUsage usage, const char* debug_name);
     [[nodiscard]] Result<void> make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan);
     void place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings);
-    void update_lights(typename B::Commands& cmd, const glm::dvec3& eye);
+    void update_lights(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world);
     [[nodiscard]] gpu::FrameParams frame_params(const Camera& camera, const RenderSettings& settings) const;
 
     rhi::Unique<typename B::Device, rhi::Buffer> vertices_, indices_, materials_, lights_;
@@ -66,7 +66,7 @@ private:
     std::vector<std::uint8_t> mirrored_;
     std::vector<Light> light_sources_;
     std::vector<gpu::LightRecord> light_records_;
-    glm::dvec3 lights_from_{0, 0, 0};
+    glm::dmat4 lights_from_{1.0};
     bool lights_written_ = false;
     bool ambient_ = false;
     gpu::uvec4 light_ends_;

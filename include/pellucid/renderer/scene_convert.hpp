@@ -3,7 +3,7 @@
 /// \file
 /// CPU scene → the structs of gpu/scene.h.  Pure functions; no device.
 #include <pellucid/gpu/scene.h>
-#include <pellucid/scene/mipmap.hpp>
+#include <pellucid/scene/resize.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <pellucid/scene/texture_plan.hpp>
 #include <glm/mat3x3.hpp>
@@ -95,12 +95,12 @@ struct MeshPlacement {
     return r;
 }
 
-/// A light as seen from `eye`: positions are subtracted in double, cone terms computed in double so that narrow cones
-/// keep their axis intensity (cos i - cos o = 2 sin((o+i)/2) sin((o-i)/2)).
-[[nodiscard]] inline gpu::LightRecord gpu_light(const Light& light, const glm::dvec3& eye) {
+/// A light in view space; cone terms are computed in double so that narrow cones keep their axis intensity
+/// (cos i - cos o = 2 sin((o+i)/2) sin((o-i)/2)).
+[[nodiscard]] inline gpu::LightRecord gpu_light(const Light& light, const glm::dmat4& view_from_world) {
     gpu::LightRecord r{};
-    r.position = to_gpu(light.position - eye);
-    r.to_light = to_gpu(-light.direction);
+    r.position = to_gpu(glm::dvec3(view_from_world * glm::dvec4(light.position, 1)));
+    r.to_light = to_gpu(glm::dvec3(view_from_world * glm::dvec4(-light.direction, 0)));
     r.intensity = to_gpu(light.color * light.intensity);
     r.inverse_range_squared = light.range > 0 ? 1.0f / (light.range * light.range) : 0.0f;
     if (light.kind == LightKind::spot) {
@@ -112,9 +112,9 @@ struct MeshPlacement {
     return r;
 }
 
-/// An instance's record but for `origin`: linear part, its inverse transpose, mirroring.
-[[nodiscard]] inline gpu::DrawRecord gpu_draw_record(const glm::dmat4& world_from_object) {
-    const glm::dmat3 m(world_from_object);
+/// Writes an instance's matrices and mirroring into `r`.  The normal matrix is scaled so that its largest element is 1.
+inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
+    const glm::dmat3 m(view_from_object);
     const double determinant = glm::determinant(m);
     // cof(M) = det(M) M^-T exists for singular matrices too; the sign of det makes it point like M^-T.
     glm::dmat3 n(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
@@ -122,7 +122,7 @@ struct MeshPlacement {
     for (int c = 0; c < 3; ++c)
         for (int row = 0; row < 3; ++row) largest = std::max(largest, std::abs(n[c][row]));
     if (largest > 0) n *= (determinant < 0 ? -1.0 : 1.0) / largest;
-    gpu::DrawRecord r{};
+    r.origin = to_gpu(glm::dvec3(view_from_object[3]));
     r.axis_x = to_gpu(m[0]);
     r.axis_y = to_gpu(m[1]);
     r.axis_z = to_gpu(m[2]);
@@ -130,7 +130,13 @@ struct MeshPlacement {
     r.normal_y = to_gpu(n[1]);
     r.normal_z = to_gpu(n[2]);
     r.flags = determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u;
-    return r;
+}
+
+/// The inverse of a rigid matrix.
+[[nodiscard]] inline glm::dmat4 rigid_inverse(const glm::dmat4& m) {
+    const glm::dmat3 r = glm::transpose(glm::dmat3(m));
+    const glm::dvec3 t = -(r * glm::dvec3(m[3]));
+    return {glm::dvec4(r[0], 0), glm::dvec4(r[1], 0), glm::dvec4(r[2], 0), glm::dvec4(t, 1)};
 }
 
 }  // namespace pellucid

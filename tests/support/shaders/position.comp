@@ -1,7 +1,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
-// Relative point → clip → pixel and depth → relative point, as the G-buffer stores it and lighting reads it.
+// View-space point → clip → pixel and depth → view-space point, as the G-buffer stores it and lighting reads it.
 #include "common/scene.glsl"
 
 PASS_BUFFER(12, Points) { vec4 points[]; };
@@ -14,5 +14,5 @@ void main() {
     precise float w = 1.0 / clip.w;
     precise vec3 ndc = clip.xyz * w;
     vec2 fragcoord = vec2((ndc.x + 1.0) / frame.pixel.x, (1.0 - ndc.y) / frame.pixel.y);
-    points[i] = vec4(relative_from_depth(fragcoord, ndc.z), ndc.z);
+    points[i] = vec4(view_from_depth(fragcoord, ndc.z), ndc.z);
 }

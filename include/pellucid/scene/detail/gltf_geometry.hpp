@@ -233,10 +233,12 @@ private:
             for (std::uint32_t c = 0; c < width; ++c) values[v][static_cast<int>(c)] = reader.number(sources[v], c);
     }
 
-    /// Lengths differ from 1 by rounding and by quantisation; a zero normal gets some direction.
+    /// Lengths differ from 1 by quantisation and carelessness, by rounding too: that is left alone, so that what was
+    /// written comes back.  A zero vector becomes `otherwise`.
     static glm::vec3 unit(glm::vec3 v, glm::vec3 otherwise) {
         const glm::dvec3 d(v);
         const double length = glm::length(d);
+        if (std::abs(length - 1.0) <= 1e-6) return v;
         return length > 0 ? glm::vec3(d / length) : otherwise;
     }
     void read_normals(const GltfValue& attributes, const std::vector<std::uint32_t>& sources, Mesh& mesh) const {

@@ -6,6 +6,8 @@
 #include <pellucid/scene/detail/tiny_gltf.hpp>
 #include <pellucid/scene/gltf.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <cmath>
 
@@ -152,6 +154,12 @@ private:
 
     /// The position and orientation of `world`: scale and shear are taken out, so that views and lights stay rigid.
     static glm::dmat4 rigid(const glm::dmat4& world) {
+        const glm::dmat3 frame(world);
+        const glm::dmat3 product = glm::transpose(frame) * frame;
+        double error = glm::determinant(frame) > 0 ? 0 : 1;
+        for (int c = 0; c < 3; ++c)
+            for (int r = 0; r < 3; ++r) error = std::max(error, std::abs(product[c][r] - (c == r ? 1.0 : 0.0)));
+        if (error <= 1e-9) return world;  // already rigid: not a bit changes
         const auto unit = [](glm::dvec3 v, glm::dvec3 otherwise) {
             const double length = glm::length(v);
             return length > 0 ? v / length : otherwise;

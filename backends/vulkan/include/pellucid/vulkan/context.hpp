@@ -89,7 +89,10 @@ struct Context {
     std::uint32_t frame_count = 0;
     std::uint32_t frame_index = 0;
     bool recording = false;
-    VkSemaphore timeline = VK_NULL_HANDLE;
+    /// The fence of submission `v` is fences[v % fence_count].  Fences rather than one timeline semaphore, because the
+    /// validation layer's checks across submissions know only fences.
+    static constexpr std::uint64_t fence_count = 8;
+    std::array<VkFence, fence_count> fences = {};
     std::uint64_t submitted = 0;  ///< value of the last submission
     std::uint64_t completed = 0;  ///< last value known to be reached
     bool lost = false;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// The Vulkan device: one queue, objects behind handles, frames in flight on one timeline semaphore.
+/// The Vulkan device: one queue, objects behind handles, tickets count its submissions.
 #include <memory>
 #include <pellucid/core/result.hpp>
 #include <pellucid/rhi/desc.hpp>

@@ -31,7 +31,7 @@
     X(UpdateDescriptorSets) \
     X(CreateCommandPool) X(DestroyCommandPool) X(ResetCommandPool) X(AllocateCommandBuffers) \
     X(BeginCommandBuffer) X(EndCommandBuffer) \
-    X(CreateSemaphore) X(DestroySemaphore) X(WaitSemaphores) X(GetSemaphoreCounterValue) \
+    X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(GetFenceStatus) \
     X(CreateQueryPool) X(DestroyQueryPool) X(ResetQueryPool) X(GetQueryPoolResults) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) \
     X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdBindIndexBuffer) X(CmdPushConstants) \

@@ -56,8 +56,15 @@ struct TextureObject {
     }
 };
 
+/// Textures with one level use a sampler of their own: the same values, but a linear filter between levels is not even
+/// allowed for depth and integers, though there is nothing to filter.
 struct SamplerObject {
-    VkSampler handle = VK_NULL_HANDLE;
+    VkSampler mipmapped = VK_NULL_HANDLE;  ///< null where the description asks for level 0 only
+    VkSampler one_level = VK_NULL_HANDLE;
+
+    [[nodiscard]] VkSampler of(const TextureObject& texture) const {
+        return mipmapped && texture.mips > 1 ? mipmapped : one_level;
+    }
 };
 
 /// Where a descriptor set came from, to give it back.
