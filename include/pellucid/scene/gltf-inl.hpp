@@ -158,7 +158,8 @@ inline std::vector<std::vector<std::uint32_t>> gltf_read_meshes(const GltfValue&
 
 inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
     std::vector<std::byte> bytes = gltf_value(read_file(path, limits.max_file_bytes));
-    const std::uint64_t file_bytes = bytes.size();
+    GltfBudget files{.limit = limits.max_file_bytes, .used = bytes.size()};
+    const std::uint64_t own_bytes = bytes.size();
     const GltfContainer container = gltf_open(bytes);
     Json document = gltf_parse_json(container.json, limits);
     if (!container.binary) bytes = {};
@@ -172,7 +173,7 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
         if (root.has(key)) scene.warnings.push_back("/" + std::string(key) + ": are left out: the rest pose is shown");
 
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    const GltfData data(root, container, folder, limits);
+    const GltfData data(root, container, folder, files);
     const tinygltf::Model model = gltf_describe(document);
     GltfLooks looks(model, scene);
     looks.read_materials(root);
@@ -181,12 +182,14 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"})
         for (const Json& name : root.has(key) ? root[key].json() : Json::array())
             quantization = quantization || name == "KHR_mesh_quantization";
-    GltfGeometry geometry(data, scene, limits, file_bytes + data.loaded_bytes(), quantization);
+    const std::uint64_t grown = (own_bytes + data.loaded_bytes()) * limits.max_geometry_growth;
+    GltfBudget budget{.limit = std::min(limits.max_geometry_bytes, (std::uint64_t{16} << 20u) + grown)};
+    GltfGeometry geometry(data, scene, budget, quantization);
     const auto primitives = gltf_read_meshes(root, geometry, scene);
-    GltfNodes nodes(model, scene, primitives, limits);
+    GltfNodes nodes(model, scene, primitives, limits.max_node_depth, budget);
     nodes.check();
     nodes.place();
-    looks.read_images(root, data, folder, limits);
+    looks.read_images(root, data, folder, limits, files);
     return scene;
 }
 

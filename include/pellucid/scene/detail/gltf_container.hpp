@@ -10,6 +10,21 @@
 
 namespace pellucid::detail {
 
+/// What a file may still take of something: what it asks for twice it pays for twice, so that work and memory stay in
+/// proportion to the file whatever refers to what.
+struct GltfBudget {
+    std::uint64_t limit = 0;  ///< [B]
+    std::uint64_t used = 0;   ///< [B]
+
+    /// Ends the loading where `bytes` more are too much; `place` and `what` say of what.
+    void take(std::uint64_t bytes, const std::string& place, const char* what) {
+        if (bytes > limit - used)
+            gltf_fail(place + ": " + what + " up to here take " + std::to_string(used + bytes) +
+                      " bytes, the limit for this file is " + std::to_string(limit));
+        used += bytes;
+    }
+};
+
 struct GltfContainer {
     std::string_view json;                          ///< into `bytes`
     std::optional<std::span<const std::byte>> bin;  ///< into `bytes`; nothing where there is no such chunk
