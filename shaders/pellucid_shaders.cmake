@@ -5,6 +5,7 @@
 #     #include <pellucid/shaders/<stem>.hpp>      // pellucid::shaders::<stem>_<file>_<stage>  (a rhi::Shader)
 # e.g. shaders/gbuffer/gbuffer.frag -> pellucid::shaders::gbuffer_frag (the stem is not repeated).  Files listed after
 # EXACT are built a second time with PELLUCID_EXACT, as ..._exact: the same bits on every API.
+# The global property PELLUCID_SHADERS_OF_<target> lists them all as <stem>/<name>.
 # Includes are found in the file's own folder, in Pellucid's shaders/ and include/, and in the target's include folders;
 # changing any of them rebuilds what includes it.
 find_program(PELLUCID_GLSLANG glslangValidator)
@@ -58,6 +59,7 @@ function(pellucid_add_shader target stem)
         DEPENDS ${source} ${PELLUCID_SHADER_TOOLS}/compile.cmake DEPFILE ${output}.d
         COMMENT "Shader ${stem}/${base}.${suffix}${note}" VERBATIM)
       list(APPEND outputs ${output})
+      set_property(GLOBAL APPEND PROPERTY PELLUCID_SHADERS_OF_${target} ${stem}/${variant})
       string(APPEND declarations "extern const ::pellucid::rhi::Shader ${variant};\n")
       string(APPEND definitions "#include <pellucid/shaders/${stem}/${variant}-inl.hpp>\n")
     endforeach()
