@@ -181,7 +181,8 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
         PELLUCID_CHECK(device->start(desc));
         return device;
     }
-    return Error{Errc::no_device, text("No OpenGL device fits '%s'; found: %s", desc.device.c_str(),
+    const std::string asked = desc.device.empty() ? "is usable" : "fits '" + desc.device + "'";
+    return Error{Errc::no_device, text("No OpenGL device %s; found: %s", asked.c_str(),
                                        seen.empty() ? "none (is EGL installed?)" : seen.c_str())};
 }
 

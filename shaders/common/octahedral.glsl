@@ -36,12 +36,14 @@ uint octahedral_encode(vec3 n) {
     precise vec2 scaled = p * 32767.0;
     vec2 low = clamp(floor(scaled), -32767.0, 32767.0);
     vec2 best = low;
-    float closest = -2.0;
+    float closest = 8.0;
     for (int i = 0; i < 4; ++i) {
         vec2 codes = min(low + vec2(float(i & 1), float(i >> 1)), 32767.0);
         vec3 v = octahedral_decode_codes(codes);
-        precise float c = dot3_always(v, n) * inversesqrt(dot3_always(v, v));
-        if (c > closest) {
+        // Squared distance: a dot product near 1 has no digits left to tell the four apart.
+        precise vec3 off = v * inversesqrt(dot3_always(v, v)) - n;
+        precise float c = dot3_always(off, off);
+        if (c < closest) {
             closest = c;
             best = codes;
         }

@@ -51,10 +51,12 @@ vec3 agx(vec3 c) {
 void main() {
     ivec2 at = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(at, imageSize(display)))) return;
-    // NaN becomes 0 and infinity the largest value: one bad pixel stays one pixel.
-    vec3 c = texelFetch(hdr, at, 0).rgb * frame.exposure;
+    // NaN becomes 0 and infinity the largest value: one bad pixel stays one pixel.  Before the exposure, so that it does
+    // not matter whether a bright value overflowed its target.
+    vec3 c = texelFetch(hdr, at, 0).rgb;
     c = vec3(c.r > 0.0 ? min(c.r, 65504.0) : 0.0, c.g > 0.0 ? min(c.g, 65504.0) : 0.0,
              c.b > 0.0 ? min(c.b, 65504.0) : 0.0);
+    c *= frame.exposure;
     if (frame.tonemap == PELLUCID_TONEMAP_REINHARD) c = c / (c + 1.0);
     else if (frame.tonemap == PELLUCID_TONEMAP_NEUTRAL) c = neutral(c);
     else if (frame.tonemap == PELLUCID_TONEMAP_ACES) c = aces(c);

@@ -59,12 +59,18 @@ measure::ImageError error_of(const Frame& frame, const std::filesystem::path& fo
 }
 
 /// Models that between them have every kind of material, texture use and transform.
-const char* const models[] = {"AlphaBlendModeTest/AlphaBlendModeTest.glb", "Avocado/Avocado.gltf",
-                              "BoxVertexColors/BoxVertexColors.glb",       "EmissiveStrengthTest/EmissiveStrengthTest.glb",
-                              "GlassVaseFlowers/GlassVaseFlowers.glb",     "LightsPunctualLamp/LightsPunctualLamp.gltf",
-                              "NegativeScaleTest/NegativeScaleTest.glb",   "NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
-                              "TextureSettingsTest/TextureSettingsTest.glb", "TextureTransformTest/TextureTransformTest.gltf",
-                              "UnlitTest/UnlitTest.glb",                   "VertexColorTest/VertexColorTest.glb",
+const char* const models[] = {"AlphaBlendModeTest/AlphaBlendModeTest.glb",
+                              "Avocado/Avocado.gltf",
+                              "BoxVertexColors/BoxVertexColors.glb",
+                              "EmissiveStrengthTest/EmissiveStrengthTest.glb",
+                              "GlassVaseFlowers/GlassVaseFlowers.glb",
+                              "LightsPunctualLamp/LightsPunctualLamp.gltf",
+                              "NegativeScaleTest/NegativeScaleTest.glb",
+                              "NormalTangentMirrorTest/NormalTangentMirrorTest.glb",
+                              "TextureSettingsTest/TextureSettingsTest.glb",
+                              "TextureTransformTest/TextureTransformTest.gltf",
+                              "UnlitTest/UnlitTest.glb",
+                              "VertexColorTest/VertexColorTest.glb",
                               "many-cubes/many-cubes.gltf"};
 
 }  // namespace

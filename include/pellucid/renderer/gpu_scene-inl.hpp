@@ -3,6 +3,7 @@
 /// \file
 /// Bodies of GpuScene<B>.
 #include <pellucid/renderer/gpu_scene.hpp>
+#include <pellucid/renderer/texture_levels.hpp>
 #include <cstring>
 
 namespace pellucid {
@@ -36,11 +37,9 @@ Result<void> GpuScene<B>::make_textures(typename B::Device& device, const Scene&
     for (const TextureArrayPlan& array : plan.arrays) {
         // All layers of mip 0, then of mip 1, …: the order of TextureDesc::initial.
         std::vector<std::vector<Image8>> chains;
-        const MipContent content = array.srgb ? MipContent::color_with_alpha : MipContent::data;
-        for (const std::uint32_t image : array.images) {
-            Image8 pixels = resized(scene.images[image].pixels, array.size, array.srgb);
-            chains.push_back(array.sampler.mipmapped ? make_mipmaps(pixels, content) : std::vector<Image8>{pixels});
-        }
+        for (const std::uint32_t image : array.images)
+            chains.push_back(
+                texture_levels(scene.images[image].pixels, array.size, array.srgb, array.sampler.mipmapped));
         std::vector<std::byte> texels;
         for (std::size_t mip = 0; mip < chains[0].size(); ++mip)
             for (const auto& chain : chains) {

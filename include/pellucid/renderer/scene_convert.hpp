@@ -3,7 +3,6 @@
 /// \file
 /// CPU scene → the structs of gpu/scene.h.  Pure functions; no device.
 #include <pellucid/gpu/scene.h>
-#include <pellucid/scene/resize.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <pellucid/scene/texture_plan.hpp>
 #include <glm/mat3x3.hpp>
