@@ -107,7 +107,13 @@ private:
 /// Models `DeviceOf<Device, Commands>`.  Work is done when it is submitted; queries and readback memory hold zeros.
 class Device {
 public:
-    Device() { info_.backend = info_.name = info_.driver = info_.api = "null"; }
+    Device() {
+        info_.backend = info_.name = info_.driver = info_.api = "null";
+        info_.max_texture_size = 16384;
+        info_.max_array_layers = 2048;
+        info_.max_storage_buffer_bytes = std::uint64_t{1} << 31;
+        info_.timestamp_ns = 1;
+    }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
 
