@@ -166,7 +166,8 @@ TEMPLATE_LIST_TEST_CASE("roughness has 16 bits, metallic 8, flags and occlusion 
         }
 }
 
-TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out as the code of k/255", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out exactly, up to the driver's sRGB encoding", "[gpu]",
+                        test::Backends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     Scene scene;
@@ -185,8 +186,9 @@ TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out as the code of k/255", "[
             const std::uint32_t k = y / 4 * 16 + x / 4;
             const CompactTexel& t = texels[y * n + x];
             INFO("k " << k);
-            off += (t.color & 0xFFu) != reference::srgb8_from_linear(k / 255.0);
-            off += (t.color >> 8u & 0xFFu) != reference::srgb8_from_linear((255 - k) / 255.0);
+            // Drivers may encode to within 0.6 of a code.
+            off += std::abs((t.color & 0xFFu) - 255 * reference::srgb_from_linear(k / 255.0)) > 0.6;
+            off += std::abs((t.color >> 8u & 0xFFu) - 255 * reference::srgb_from_linear((255 - k) / 255.0)) > 0.6;
             REQUIRE((t.color >> 16u & 0xFFu) == 255u);
             if (k % 2 == 0) continue;
             // An unlit surface carries its colour as emitted radiance: k/255 to the last bit that a half keeps.
