@@ -72,19 +72,25 @@ Result<void> run_all(int argc, char** argv) {
         return Error{Errc::invalid_argument, "--backend is '" + backend + "' but must be vulkan, opengl or both"};
 
     // One API's devices are gone before the other's are made: on some drivers destroying a Vulkan device breaks OpenGL.
+    // What one API measured is reported even where the other fails.
     std::vector<ApiResult> results;
-    if (backend != "opengl") {
-        PELLUCID_TRY(ApiResult result, run<Vulkan, MutedVulkan>(device, settings, 1.05, make_raw_vulkan));
-        results.push_back(std::move(result));
-    }
-    if (backend != "vulkan") {
-        PELLUCID_TRY(ApiResult result, run<OpenGL, MutedOpenGL>(device, settings, 1.10, make_raw_opengl));
-        results.push_back(std::move(result));
-    }
+    Result<void> status;
+    const auto keep = [&](Result<ApiResult> result) {
+        if (result) {
+            results.push_back(std::move(*result));
+        } else {
+            const std::string before = status ? "" : status.error().message + "; ";
+            status = Error{result.error().code, before + result.error().message};
+        }
+    };
+    if (backend != "opengl") keep(run<Vulkan, MutedVulkan>(device, settings, 1.05, make_raw_vulkan));
+    if (backend != "vulkan") keep(run<OpenGL, MutedOpenGL>(device, settings, 1.10, make_raw_opengl));
+    if (results.empty()) return status;
     const Machine machine = describe_machine();
     std::fputs(to_markdown(results, settings, machine).c_str(), stdout);
-    if (!options.text("json").empty()) return write_file(options.text("json"), to_json(results, settings, machine));
-    return {};
+    if (!options.text("json").empty())
+        PELLUCID_CHECK(write_file(options.text("json"), to_json(results, settings, machine)));
+    return status;
 }
 
 }  // namespace

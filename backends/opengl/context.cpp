@@ -56,7 +56,7 @@ std::vector<Adapter> find_adapters() {
     }
     if (has_word(client, "EGL_MESA_platform_surfaceless"))
         if (void* display = get_display(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr))
-            found.push_back({display, "EGL surfaceless platform"});
+            found.push_back({display, "EGL surfaceless platform", true});
     return found;
 }
 

@@ -95,7 +95,8 @@ Result<rhi::RecordSlice> Commands::upload_records(std::uint32_t count, std::uint
                           "the whole at most %u bytes",
                           count, stride, Ring::max_slice_bytes)};
     context_->enter();
-    const Ring::Slice slice = records_.take(static_cast<std::uint32_t>(bytes), stride);
+    // No records take the room of one, so that there is always a place to point at.
+    const Ring::Slice slice = records_.take(static_cast<std::uint32_t>(bytes > 0 ? bytes : stride), stride);
     if (!slice.bytes)
         return Error{Errc::out_of_memory,
                      text("The ring of records could not grow for %u records of %u bytes", count, stride)};

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <functional>
+#include <optional>
 #include <string_view>
 
 #include "program_cache.hpp"
@@ -91,8 +93,16 @@ Found probe(const Adapter& adapter, bool validation) {
     return found;
 }
 
-bool same_device(const rhi::DeviceInfo& a, const rhi::DeviceInfo& b) {
-    return a.name == b.name && a.driver == b.driver;
+/// Where the device found on `adapter` goes in a list that has hardware first; none where it is in the list already.
+template <class T, class Info>
+std::optional<typename std::vector<T>::iterator> place_for(std::vector<T>& list, const Adapter& adapter,
+                                                           const rhi::DeviceInfo& found, Info info) {
+    // Two devices of the enumeration are two, however alike.
+    for (const T& known : list)
+        if (adapter.by_platform && info(known).name == found.name && info(known).driver == found.driver)
+            return std::nullopt;
+    if (found.software) return list.end();
+    return std::find_if(list.begin(), list.end(), [&](const T& known) { return info(known).software; });
 }
 
 void debug_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
@@ -134,11 +144,9 @@ std::vector<rhi::DeviceInfo> Device::list() {
     std::vector<rhi::DeviceInfo> out;
     for (const Adapter& adapter : find_adapters()) {
         rhi::DeviceInfo found = probe(adapter, false).info;
-        // Mesa's surfaceless platform may be the same GPU as a device of the enumeration.
-        if (std::none_of(out.begin(), out.end(), [&](const auto& other) { return same_device(other, found); }))
-            out.push_back(std::move(found));
+        if (const auto place = place_for(out, adapter, found, std::identity{}); place)
+            out.insert(*place, std::move(found));
     }
-    std::stable_partition(out.begin(), out.end(), [](const auto& device) { return !device.software; });
     return out;
 }
 
@@ -149,11 +157,12 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
     std::vector<Found> known;
     for (const Adapter& adapter : find_adapters()) {
         Found found = probe(adapter, desc.validation);
-        if (std::none_of(known.begin(), known.end(), [&](const Found& k) { return same_device(k.info, found.info); }))
-            known.push_back(std::move(found));
-        if (desc.device.empty() && !known.back().info.software && known.back().info.missing.empty()) break;
+        const bool best = !found.info.software && found.info.missing.empty();
+        const auto place =
+            place_for(known, adapter, found.info, [](const Found& f) -> const rhi::DeviceInfo& { return f.info; });
+        if (place) known.insert(*place, std::move(found));
+        if (best && desc.device.empty()) break;
     }
-    std::stable_partition(known.begin(), known.end(), [](const Found& device) { return !device.info.software; });
     std::string seen;
     for (std::size_t i = 0; i < known.size(); ++i) {
         Found& found = known[i];
@@ -172,7 +181,8 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
         PELLUCID_CHECK(device->start(desc));
         return device;
     }
-    return Error{Errc::no_device, text("No OpenGL device fits '%s'; found: %s", desc.device.c_str(),
+    const std::string asked = desc.device.empty() ? "is usable" : "fits '" + desc.device + "'";
+    return Error{Errc::no_device, text("No OpenGL device %s; found: %s", asked.c_str(),
                                        seen.empty() ? "none (is EGL installed?)" : seen.c_str())};
 }
 

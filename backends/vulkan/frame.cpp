@@ -132,6 +132,12 @@ void Context::destroy_now(const Garbage& item) {
 }
 
 Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
+    // The tracked layouts and the upload's state are those after commands that would never run: once a step of this
+    // fails, nothing of the device can be trusted.
+    const auto broken = [this](VkResult result, const char* what) {
+        lost = true;
+        return fail(result, what, "submission");
+    };
     VkCommandBufferSubmitInfo batch[2] = {};
     std::uint32_t count = 0;
     const auto add = [&](VkCommandBuffer commands) {
@@ -140,30 +146,32 @@ Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
     };
     if (upload.recording) {
         Upload::Piece& piece = upload.pieces[upload.current];
-        if (const VkResult r = vk.EndCommandBuffer(piece.commands)) return fail(r, "vkEndCommandBuffer", "upload");
+        if (const VkResult r = vk.EndCommandBuffer(piece.commands)) return broken(r, "vkEndCommandBuffer");
         add(piece.commands);
     }
-    if (frame_commands) add(frame_commands);
+    if (frame_commands) {
+        if (const VkResult r = vk.EndCommandBuffer(frame_commands)) return broken(r, "vkEndCommandBuffer");
+        add(frame_commands);
+    }
     const VkFence fence = fences[(submitted + 1) % fence_count];
     if (submitted >= fence_count) {
-        PELLUCID_CHECK(wait(submitted + 1 - fence_count));
+        if (auto waited = wait(submitted + 1 - fence_count); !waited) {
+            lost = true;
+            return waited.error();
+        }
     }
-    if (const VkResult r = vk.ResetFences(device, 1, &fence)) return fail(r, "vkResetFences", "ticket");
+    if (const VkResult r = vk.ResetFences(device, 1, &fence)) return broken(r, "vkResetFences");
     VkSubmitInfo2 info = {VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = count;
     info.pCommandBufferInfos = batch;
-    const VkResult r = vk.QueueSubmit2(queue, 1, &info, fence);
+    if (const VkResult r = vk.QueueSubmit2(queue, 1, &info, fence)) return broken(r, "vkQueueSubmit2");
+    ++submitted;
     if (upload.recording) {
-        upload.pieces[upload.current].ticket = submitted + (r == VK_SUCCESS ? 1 : 0);
+        upload.pieces[upload.current].ticket = submitted;
         upload.recording = false;
         upload.current ^= 1u;
         upload.used = 0;
     }
-    if (r != VK_SUCCESS) {
-        lost = true;  // the tracked layouts are those after commands that never run: nothing can be trusted
-        return fail(r, "vkQueueSubmit2", frame_commands ? "frame" : "upload");
-    }
-    ++submitted;
     // An upload on its own, in the midst of a frame, does not end the use of what the frame has recorded.
     if (frame_commands || !recording)
         for (Garbage& item : garbage)
@@ -201,11 +209,6 @@ Result<rhi::Ticket> Device::submit() {
     if (!c.recording) return Error{Errc::invalid_argument, "submit: no frame was begun"};
     commands_.host_barrier();
     Frame& frame = c.frame();
-    if (const VkResult r = c.vk.EndCommandBuffer(frame.commands)) {
-        c.recording = false;
-        c.lost = true;  // the tracked layouts are those after commands that never run: nothing can be trusted
-        return c.fail(r, "vkEndCommandBuffer", "frame");
-    }
     const Result<std::uint64_t> ticket = c.submit(frame.commands);
     c.recording = false;
     if (!ticket) return ticket.error();

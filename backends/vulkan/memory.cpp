@@ -41,7 +41,7 @@ std::vector<std::uint32_t> SubAllocator::candidates(std::uint32_t type_bits, rhi
             penalty = (cached ? 0 : 2) + (flags & VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT ? 1 : 0);
         found.emplace_back(penalty, type);
     }
-    std::stable_sort(found.begin(), found.end(), [](auto& a, auto& b) { return a.first < b.first; });
+    std::sort(found.begin(), found.end());  // equal penalties keep the driver's order
     std::vector<std::uint32_t> types;
     for (const auto& [penalty, type] : found) types.push_back(type);
     return types;

@@ -19,17 +19,22 @@ Result<Context::Staged> Context::stage(std::uint64_t minimum, std::uint64_t want
     if (!upload.recording) {
         PELLUCID_CHECK(wait(piece.ticket));
         start = 0;
+        // Each of the three by itself: a call that failed is made again the next time.
         if (!piece.pool) {
             VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
             pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
             pool.queueFamilyIndex = family;
             if (const VkResult r = vk.CreateCommandPool(device, &pool, nullptr, &piece.pool))
                 return fail(r, "vkCreateCommandPool", "upload");
+        }
+        if (!piece.commands) {
             VkCommandBufferAllocateInfo info = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
             info.commandPool = piece.pool;
             info.commandBufferCount = 1;
-            if (const VkResult r = vk.AllocateCommandBuffers(device, &info, &piece.commands))
+            if (const VkResult r = vk.AllocateCommandBuffers(device, &info, &piece.commands)) {
+                piece.commands = VK_NULL_HANDLE;
                 return fail(r, "vkAllocateCommandBuffers", "upload");
+            }
             set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, piece.commands, "upload commands");
         }
         if (!piece.buffer)

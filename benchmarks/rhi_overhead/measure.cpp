@@ -28,8 +28,8 @@ Result<void> run_round(Loop& loop, const Workload& workload, const Settings& set
         record.push_back(time.record / settings.draws);
         total.push_back(time.total / settings.draws);
     }
-    samples.record.push_back(summarise(std::move(record)).median);
-    samples.total.push_back(summarise(std::move(total)).median);
+    samples.record.push_back(summarise(std::move(record)).lowest);
+    samples.total.push_back(summarise(std::move(total)).lowest);
     return {};
 }
 

@@ -13,7 +13,7 @@ namespace pellucid::bench {
 
 struct Settings {
     std::uint32_t draws = 10000;  ///< a frame
-    std::uint32_t rounds = 31;    ///< each gives one number a loop: the median of its frames
+    std::uint32_t rounds = 31;    ///< each gives one number a loop: its fastest frame, which was disturbed least
     std::uint32_t frames = 5;     ///< timed frames a round, after one that is not timed
 };
 

@@ -37,12 +37,10 @@ using Table = vulkan::DeviceTable;
 
 }  // namespace
 
-Result<void> RawVulkan::wait(std::uint64_t value) {
-    const VkSemaphoreWaitInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO,
-                                   .semaphoreCount = 1,
-                                   .pSemaphores = &timeline_,
-                                   .pValues = &value};
-    RAW_VK(vk_.WaitSemaphores(device_, &info, UINT64_MAX));
+Result<void> RawVulkan::wait(RawFrame& frame) {
+    if (!frame.pending) return {};
+    RAW_VK(vk_.WaitForFences(device_, 1, &frame.fence, VK_TRUE, UINT64_MAX));
+    frame.pending = false;
     return {};
 }
 
@@ -70,7 +68,7 @@ Result<FrameTime> RawVulkan::frame(const Workload& workload, std::uint64_t numbe
     if (variant != Variant::push) PELLUCID_CHECK(reserve_records(frame, matrices.size() * record_stride));
 
     const double start = now_ns();
-    PELLUCID_CHECK(wait(frame.done));
+    PELLUCID_CHECK(wait(frame));
     RAW_VK(vk_.ResetCommandPool(device_, frame.pool, 0));
     VkCommandBuffer c = frame.commands;
     const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO,
@@ -126,19 +124,13 @@ Result<FrameTime> RawVulkan::frame(const Workload& workload, std::uint64_t numbe
         .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
     vk_.CmdPipelineBarrier2(c, &dependency);
     RAW_VK(vk_.EndCommandBuffer(c));
-    frame.done = ++submitted_;
     const VkCommandBufferSubmitInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO, .commandBuffer = c};
-    const VkSemaphoreSubmitInfo signal{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
-                                       .semaphore = timeline_,
-                                       .value = frame.done,
-                                       .stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT};
-    const VkSubmitInfo2 submit{.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2,
-                               .commandBufferInfoCount = 1,
-                               .pCommandBufferInfos = &commands,
-                               .signalSemaphoreInfoCount = 1,
-                               .pSignalSemaphoreInfos = &signal};
-    RAW_VK(vk_.QueueSubmit2(native_.queue, 1, &submit, VK_NULL_HANDLE));
-    PELLUCID_CHECK(wait(frame.done));
+    const VkSubmitInfo2 submit{
+        .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO_2, .commandBufferInfoCount = 1, .pCommandBufferInfos = &commands};
+    RAW_VK(vk_.ResetFences(device_, 1, &frame.fence));
+    RAW_VK(vk_.QueueSubmit2(native_.queue, 1, &submit, frame.fence));
+    frame.pending = true;
+    PELLUCID_CHECK(wait(frame));
     const double done = now_ns();
     return FrameTime{recorded - start, done - start};
 }

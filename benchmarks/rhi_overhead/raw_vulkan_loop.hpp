@@ -29,7 +29,8 @@ struct RawFrame {
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;
     RawBuffer uniforms, records;
-    std::uint64_t done = 0;  ///< value of the timeline when the frame's work is done
+    VkFence fence = VK_NULL_HANDLE;
+    bool pending = false;  ///< submitted and not yet waited for
 };
 
 class RawVulkan final : public Loop {
@@ -55,7 +56,7 @@ private:
     Result<VkPipeline> make_pipeline(const rhi::Shader& vertex, const rhi::Shader& fragment);
     Result<void> make_frame(RawFrame& frame);
     Result<void> reserve_records(RawFrame& frame, VkDeviceSize bytes);
-    Result<void> wait(std::uint64_t value);
+    Result<void> wait(RawFrame& frame);
     void image_barrier(VkCommandBuffer c, VkPipelineStageFlags2 from, VkAccessFlags2 wrote, VkImageLayout before,
                        VkPipelineStageFlags2 to, VkAccessFlags2 reads, VkImageLayout after) const;
 
@@ -72,8 +73,6 @@ private:
     VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline record_pipeline_ = VK_NULL_HANDLE, push_pipeline_ = VK_NULL_HANDLE;
-    VkSemaphore timeline_ = VK_NULL_HANDLE;
-    std::uint64_t submitted_ = 0;
     RawFrame frames_[frames_in_flight];
 };
 

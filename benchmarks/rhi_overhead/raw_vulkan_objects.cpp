@@ -158,6 +158,8 @@ Result<void> RawVulkan::make_frame(RawFrame& frame) {
                                        .flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT,
                                        .queueFamilyIndex = native_.family};
     RAW_VK(vk_.CreateCommandPool(device_, &pool, nullptr, &frame.pool));
+    const VkFenceCreateInfo fence{.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};
+    RAW_VK(vk_.CreateFence(device_, &fence, nullptr, &frame.fence));
     const VkCommandBufferAllocateInfo commands{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO,
                                                .commandPool = frame.pool,
                                                .level = VK_COMMAND_BUFFER_LEVEL_PRIMARY,
@@ -216,10 +218,6 @@ Result<void> RawVulkan::make_objects() {
     PELLUCID_CHECK(make_layouts());
     PELLUCID_TRY(record_pipeline_, make_pipeline(shaders::bench_draws_record_vert, shaders::bench_draws_flat_frag));
     PELLUCID_TRY(push_pipeline_, make_pipeline(shaders::bench_draws_push_vert, shaders::bench_draws_flat_frag));
-    const VkSemaphoreTypeCreateInfo kind{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO,
-                                         .semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE};
-    const VkSemaphoreCreateInfo semaphore{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, .pNext = &kind};
-    RAW_VK(vk_.CreateSemaphore(device_, &semaphore, nullptr, &timeline_));
     for (RawFrame& frame : frames_) PELLUCID_CHECK(make_frame(frame));
     return {};
 }
@@ -227,13 +225,13 @@ Result<void> RawVulkan::make_objects() {
 RawVulkan::~RawVulkan() {
     vk_.DeviceWaitIdle(device_);
     for (RawFrame& frame : frames_) {
+        vk_.DestroyFence(device_, frame.fence, nullptr);
         vk_.DestroyCommandPool(device_, frame.pool, nullptr);
         destroy(frame.uniforms);
         destroy(frame.records);
     }
     destroy(readback_);
     destroy(indices_);
-    vk_.DestroySemaphore(device_, timeline_, nullptr);
     vk_.DestroyPipeline(device_, record_pipeline_, nullptr);
     vk_.DestroyPipeline(device_, push_pipeline_, nullptr);
     vk_.DestroyPipelineLayout(device_, layout_, nullptr);

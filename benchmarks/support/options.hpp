@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// The command line of a benchmark: `--name value` pairs, nothing else.
+/// The command line of a benchmark: `--name value` pairs and `--name` flags, nothing else.
 #include <charconv>
 #include <cstdint>
 #include <initializer_list>
@@ -17,11 +17,22 @@ namespace pellucid::bench {
 class Options {
 public:
     /// \param defaults name (without the dashes) to value.  An option not listed is an error.
-    Options(std::initializer_list<std::pair<const std::string, std::string>> defaults) : values_(defaults) {}
+    /// \param flags names that take no value and are off unless given.
+    Options(std::initializer_list<std::pair<const std::string, std::string>> defaults,
+            std::initializer_list<std::string> flags = {})
+        : values_(defaults) {
+        for (const std::string& name : flags) flags_[name] = false;
+    }
 
     Result<void> parse(int argc, char** argv) {
         for (int i = 1; i < argc; i += 2) {
             const std::string_view name = argv[i];
+            if (const auto flag = name.starts_with("--") ? flags_.find(name.substr(2)) : flags_.end();
+                flag != flags_.end()) {
+                flag->second = true;
+                --i;
+                continue;
+            }
             const auto found = name.starts_with("--") ? values_.find(name.substr(2)) : values_.end();
             if (found == values_.end()) return Error{Errc::invalid_argument, usage(name, "is not an option")};
             if (i + 1 == argc) return Error{Errc::invalid_argument, usage(name, "needs a value")};
@@ -31,6 +42,8 @@ public:
     }
     /// Precondition: `name` is one of the options.
     [[nodiscard]] const std::string& text(std::string_view name) const { return values_.find(name)->second; }
+    /// Precondition: `name` is one of the flags.
+    [[nodiscard]] bool flag(std::string_view name) const { return flags_.find(name)->second; }
     /// The option as an integer in [lowest, highest].
     [[nodiscard]] Result<std::uint32_t> number(std::string_view name, std::uint32_t lowest,
                                                std::uint32_t highest) const {
@@ -48,10 +61,12 @@ private:
     [[nodiscard]] std::string usage(std::string_view name, const char* problem) const {
         std::string out = "'" + std::string(name) + "' " + problem + "; options and defaults:";
         for (const auto& [option, value] : values_) out += " --" + option + " " + (value.empty() ? "''" : value);
+        for (const auto& [name_of_flag, given] : flags_) out += " --" + name_of_flag;
         return out;
     }
 
     std::map<std::string, std::string, std::less<>> values_;
+    std::map<std::string, bool, std::less<>> flags_;
 };
 
 }  // namespace pellucid::bench

@@ -59,7 +59,7 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
     if (name == "emissive") {
         for_each(half3);
     } else if (name == "normal" && !compact) {
-        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::mat3(camera.world_from_view) * half3(x, y); });
+        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::vec3(glm::dmat3(camera.world_from_view) * glm::dvec3(half3(x, y))); });
     } else if (name == "normal") {
         for_each([&](std::uint32_t x, std::uint32_t y) {
             const auto n = reference::direction_from_oct32<double>(texels.template at<std::uint32_t>(x, y));

@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
 // The same surfaces into the classic layout, which stores the world position.
+// Always the exact arithmetic: one bit here is one code of the stored normal, and a sharp highlight shows it.
+#define PELLUCID_EXACT 1
 #include "common/gbuffer.glsl"
 #include "common/geometry_in.glsl"
 

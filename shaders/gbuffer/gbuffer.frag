@@ -2,6 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
 // Opaque and masked surfaces into the compact layout: 12 bytes of colour targets, and emitted radiance if any is needed.
+// Always the exact arithmetic: one bit here is one code of the stored normal, and a sharp highlight shows it.
+#define PELLUCID_EXACT 1
 #include "common/gbuffer.glsl"
 #include "common/geometry_in.glsl"
 

@@ -5,6 +5,7 @@
 /// validation layer or the library fails the test.
 #include <memory>
 #include <pellucid/rhi/backend.hpp>
+#include <pellucid/rhi/validated.hpp>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -28,6 +29,15 @@ using Backends = std::tuple<OpenGL>;
 #else
 using Backends = std::tuple<>;
 #endif
+
+/// The same, each inside `Validated<B>`: the test is then also one of the rules, which must not cry wolf.
+template <class List>
+struct Wrap;
+template <class... Bs>
+struct Wrap<std::tuple<Bs...>> {
+    using type = std::tuple<Validated<Bs>...>;
+};
+using ValidatedBackends = Wrap<Backends>::type;
 
 /// Keeps what a device says.  A warning or an error fails the running test unless `expected` is set.
 struct Log {

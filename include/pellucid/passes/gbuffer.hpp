@@ -33,7 +33,6 @@ struct GBufferDesc {
     bool emissive = false;                          ///< add the target for emitted radiance
     std::uint32_t needs = PELLUCID_NEED_ALL;        ///< PELLUCID_NEED_* of the scene
     std::uint32_t culls = 7;                        ///< bit (1 << Cull) for each way of culling in use
-    bool exact = false;
 };
 
 /// `[h, w]` textures of gbuffer_formats(), and d32_float depth (reversed, cleared to 0).
@@ -43,7 +42,7 @@ struct GBufferTargets {
     Extent2D size = {};
 };
 
-/// Rasterises surfaces into a G-buffer; depth test greater-or-equal, so that of two equal depths the later draw wins.
+/// Rasterises surfaces into a G-buffer, the same bits on every API; depth test greater-or-equal, so that of two equal depths the later draw wins.
 /// Shaders: shaders/gbuffer.  Reference: reference/gbuffer.hpp.
 template <rhi::Backend B>
 class GBufferPass {
@@ -67,12 +66,10 @@ Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const 
     GBufferPass pass;
     pass.emissive_ = desc.emissive;
     const bool compact = desc.layout == GBufferLayout::compact;
-    const rhi::Shader& compact_shader = desc.exact ? shaders::gbuffer_frag_exact : shaders::gbuffer_frag;
-    const rhi::Shader& classic_shader = desc.exact ? shaders::gbuffer_classic_frag_exact : shaders::gbuffer_classic_frag;
     const rhi::SpecConstant constants[] = {{0, desc.needs}};
     rhi::GraphicsPipelineDesc pipeline{
         .vertex = &shaders::gbuffer_vert,
-        .fragment = compact ? &compact_shader : &classic_shader,
+        .fragment = compact ? &shaders::gbuffer_frag : &shaders::gbuffer_classic_frag,
         .constants = constants,
         .scene_group = scene_group_layout(),
         .depth = {.format = rhi::Format::d32_float, .test = true, .write = true, .compare = rhi::Compare::greater_equal},

@@ -82,8 +82,7 @@ void Renderer<B>::declare_opaque() {
             PELLUCID_TRY(gbuffer_pass_, GBufferPass<B>::create(device, {.layout = settings_.gbuffer,
                                                                          .emissive = needs_.emissive_target,
                                                                          .needs = needs_.mask,
-                                                                         .culls = scene_->opaque_culls(),
-                                                                         .exact = settings_.exact}));
+                                                                         .culls = scene_->opaque_culls()}));
             pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->opaque_culls()));
             return {};
         },

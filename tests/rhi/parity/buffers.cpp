@@ -17,7 +17,8 @@ std::vector<std::uint32_t> counting(std::size_t count, std::uint32_t from = 0) {
 }
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("initial content of a device buffer, also of many megabytes", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("initial content of a device buffer, also of many megabytes", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     for (const std::size_t count : {std::size_t{1}, std::size_t{1000}, std::size_t{5} << 20}) {
@@ -32,7 +33,7 @@ TEMPLATE_LIST_TEST_CASE("initial content of a device buffer, also of many megaby
 }
 
 TEMPLATE_LIST_TEST_CASE("upload memory is mapped for its whole life and seen by the next submission", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto first = counting(64, 1);
@@ -48,7 +49,7 @@ TEMPLATE_LIST_TEST_CASE("upload memory is mapped for its whole life and seen by 
     CHECK(test::read<std::uint32_t>(*device, buffer.get(), 64) == second);
 }
 
-TEMPLATE_LIST_TEST_CASE("copies, updates and fills touch exactly their bytes", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("copies, updates and fills touch exactly their bytes", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto words = counting(64);
@@ -84,7 +85,7 @@ TEMPLATE_LIST_TEST_CASE("copies, updates and fills touch exactly their bytes", "
 }
 
 TEMPLATE_LIST_TEST_CASE("updates larger than 64 KiB are split, and many in a frame do not meet", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr std::size_t count = 50'000;  // 200,000 bytes
@@ -105,7 +106,8 @@ TEMPLATE_LIST_TEST_CASE("updates larger than 64 KiB are split, and many in a fra
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("a dispatch reads uniforms and push data and writes storage", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a dispatch reads uniforms and push data and writes storage", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const GroupLayout layout{.bindings = {{12, BindingKind::uniform_buffer}, {13, BindingKind::storage_buffer}}};

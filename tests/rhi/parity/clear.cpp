@@ -24,7 +24,7 @@ Image<T> cleared(D& device, Format format, ColorAttachment attachment) {
 }
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("clear colours arrive in every colour format", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("clear colours arrive in every colour format", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const ColorAttachment color{.clear = {0.5f, 0.25f, 1.0f, 0.125f}};
@@ -53,7 +53,7 @@ TEMPLATE_LIST_TEST_CASE("clear colours arrive in every colour format", "[gpu]", 
 }
 
 TEMPLATE_LIST_TEST_CASE("clear colours are linear: 0.5 becomes 188 in sRGB, alpha stays linear", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto picture = cleared<std::uint8_t>(*device, Format::rgba8_srgb, {.clear = {0.5f, 0.0f, 1.0f, 0.25f}});
@@ -61,7 +61,7 @@ TEMPLATE_LIST_TEST_CASE("clear colours are linear: 0.5 becomes 188 in sRGB, alph
         for (std::uint32_t x = 0; x < size.width; ++x) CHECK(test::rgba(picture, x, y) == 0xBC00FF40u);
 }
 
-TEMPLATE_LIST_TEST_CASE("depth is cleared to what is asked for", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("depth is cleared to what is asked for", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     for (auto format : {Format::d32_float, Format::d32_float_s8_uint}) {
@@ -77,7 +77,7 @@ TEMPLATE_LIST_TEST_CASE("depth is cleared to what is asked for", "[gpu]", test::
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("loaded attachments keep what an earlier pass stored", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("loaded attachments keep what an earlier pass stored", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto target = test::make_target(*device, size);
@@ -96,7 +96,7 @@ TEMPLATE_LIST_TEST_CASE("loaded attachments keep what an earlier pass stored", "
 }
 
 TEMPLATE_LIST_TEST_CASE("a clear fills the whole render area although the last scissor was small", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto target = test::make_target(*device, size);
@@ -118,7 +118,7 @@ TEMPLATE_LIST_TEST_CASE("a clear fills the whole render area although the last s
         for (std::uint32_t x = 0; x < size.width; ++x) CHECK(test::rgba(picture, x, y) == 0x00FFFFFFu);
 }
 
-TEMPLATE_LIST_TEST_CASE("one layer and one level of a texture can be attached", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("one layer and one level of a texture can be attached", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto texture =

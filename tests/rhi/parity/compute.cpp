@@ -7,7 +7,7 @@ using namespace pellucid;
 using namespace pellucid::rhi;
 using test::own;
 
-TEMPLATE_LIST_TEST_CASE("storage images are written, then sampled by a render pass", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("storage images are written, then sampled by a render pass", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{16, 8};
@@ -57,7 +57,8 @@ TEMPLATE_LIST_TEST_CASE("storage images are written, then sampled by a render pa
         }
 }
 
-TEMPLATE_LIST_TEST_CASE("a chain of dispatches on one image sees each other's writes", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a chain of dispatches on one image sees each other's writes", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{8, 8};
@@ -91,7 +92,7 @@ TEMPLATE_LIST_TEST_CASE("a chain of dispatches on one image sees each other's wr
     for (const auto value : test::read<std::uint32_t>(*device, image, {16, 16}, 1).data) CHECK(value == 5);
 }
 
-TEMPLATE_LIST_TEST_CASE("indirect draws and dispatches read what a dispatch wrote", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("indirect draws and dispatches read what a dispatch wrote", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{2, 1};
@@ -162,7 +163,7 @@ TEMPLATE_LIST_TEST_CASE("indirect draws and dispatches read what a dispatch wrot
     for (const auto value : test::read<std::uint32_t>(*device, values.get(), 100)) CHECK(value == 9);
 }
 
-TEMPLATE_LIST_TEST_CASE("a vertex stage reads vertices that a dispatch wrote", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a vertex stage reads vertices that a dispatch wrote", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{4, 2};
@@ -197,7 +198,7 @@ TEMPLATE_LIST_TEST_CASE("a vertex stage reads vertices that a dispatch wrote", "
 }
 
 TEMPLATE_LIST_TEST_CASE("a dispatch sees what fragments counted, and a second pass goes on from it", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{10, 7};
@@ -253,7 +254,7 @@ TEMPLATE_LIST_TEST_CASE("a dispatch sees what fragments counted, and a second pa
     CHECK(test::read<std::uint32_t>(*device, counter.get(), 1)[0] == 23111);
 }
 
-TEMPLATE_LIST_TEST_CASE("a target becomes a texture, then a target again", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a target becomes a texture, then a target again", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{4, 4};

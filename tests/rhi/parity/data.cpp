@@ -6,7 +6,8 @@ using namespace pellucid;
 using namespace pellucid::rhi;
 using test::own;
 
-TEMPLATE_LIST_TEST_CASE("push data: all 128 bytes arrive, and stay bound within a pass", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("push data: all 128 bytes arrive, and stay bound within a pass", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{2, 1};
@@ -40,7 +41,7 @@ TEMPLATE_LIST_TEST_CASE("push data: all 128 bytes arrive, and stay bound within 
 }
 
 TEMPLATE_LIST_TEST_CASE("records are found by base instance, in plain, indexed and instanced draws", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{8, 1};
@@ -83,7 +84,7 @@ TEMPLATE_LIST_TEST_CASE("records are found by base instance, in plain, indexed a
     for (std::uint32_t x = 0; x < 8; ++x) CHECK(test::rgba(picture, x, 0) == ((x + 1) << 24 | 0xFFu));
 }
 
-TEMPLATE_LIST_TEST_CASE("two slices of records in one frame are both readable", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("two slices of records in one frame are both readable", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{2, 1};
@@ -105,7 +106,8 @@ TEMPLATE_LIST_TEST_CASE("two slices of records in one frame are both readable", 
     CHECK(test::rgba(picture, 1, 0) == 0x0000FFFFu);
 }
 
-TEMPLATE_LIST_TEST_CASE("specialisation constants are found by number, in any order", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("specialisation constants are found by number, in any order", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const auto target = test::make_target(*device, {1, 1});
@@ -131,7 +133,8 @@ TEMPLATE_LIST_TEST_CASE("specialisation constants are found by number, in any or
     CHECK(second == 0x040900FFu);
 }
 
-TEMPLATE_LIST_TEST_CASE("frame uniforms: more than a megabyte in a frame, over many frames", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("frame uniforms: more than a megabyte in a frame, over many frames", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr std::uint32_t slices = 96;  // of 16 KiB: 1.5 MiB a frame
@@ -165,7 +168,7 @@ TEMPLATE_LIST_TEST_CASE("frame uniforms: more than a megabyte in a frame, over m
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("frames in flight do not overwrite each other's data", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("frames in flight do not overwrite each other's data", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>([](DeviceDesc& desc) { desc.frames_in_flight = 3; });
     if (!device) return;
     constexpr std::uint32_t frames = 12;

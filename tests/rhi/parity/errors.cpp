@@ -77,7 +77,8 @@ TEMPLATE_LIST_TEST_CASE("more memory than there is: a result, and the device goe
     const auto device = test::make_device<TestType>();
     if (!device) return;
     device.log->expected = true;  // the driver may say so too
-    const auto huge = device->make_buffer({.size = std::uint64_t{1} << 44, .usage = BufferUsage::copy_destination, .debug_name = "16 TiB"});
+    const auto huge = device->make_buffer(
+        {.size = std::uint64_t{1} << 44, .usage = BufferUsage::copy_destination, .debug_name = "16 TiB"});
     REQUIRE_FALSE(huge);
     INFO(huge.error().message);
     CHECK(huge.error().code == Errc::out_of_memory);

@@ -7,7 +7,8 @@ using namespace pellucid;
 using namespace pellucid::rhi;
 using test::own;
 
-TEMPLATE_LIST_TEST_CASE("the nearest fragment wins whatever the order: depth is reversed", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("the nearest fragment wins whatever the order: depth is reversed", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{4, 4};
@@ -29,7 +30,8 @@ TEMPLATE_LIST_TEST_CASE("the nearest fragment wins whatever the order: depth is 
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("read-only depth tests without writing, also while it is sampled", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("read-only depth tests without writing, also while it is sampled", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{4, 4};
@@ -78,7 +80,7 @@ TEMPLATE_LIST_TEST_CASE("read-only depth tests without writing, also while it is
 }
 
 TEMPLATE_LIST_TEST_CASE("premultiplied blending in RGBA16F rounds toward zero at every layer", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{2, 2};
@@ -108,7 +110,7 @@ TEMPLATE_LIST_TEST_CASE("premultiplied blending in RGBA16F rounds toward zero at
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("a colour written to RGBA16F is rounded toward zero", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a colour written to RGBA16F is rounded toward zero", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{1, 1};
@@ -122,7 +124,7 @@ TEMPLATE_LIST_TEST_CASE("a colour written to RGBA16F is rounded toward zero", "[
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("blend operations: min, max and reverse subtract", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("blend operations: min, max and reverse subtract", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{1, 1};
@@ -148,7 +150,8 @@ TEMPLATE_LIST_TEST_CASE("blend operations: min, max and reverse subtract", "[gpu
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("colours blend and are written in linear light to sRGB targets", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("colours blend and are written in linear light to sRGB targets", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{1, 1};
@@ -164,7 +167,7 @@ TEMPLATE_LIST_TEST_CASE("colours blend and are written in linear light to sRGB t
     CHECK(picture.data[3] == 255);
 }
 
-TEMPLATE_LIST_TEST_CASE("several targets of different formats, each with its mask", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("several targets of different formats, each with its mask", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{3, 2};
@@ -191,7 +194,8 @@ TEMPLATE_LIST_TEST_CASE("several targets of different formats, each with its mas
     CHECK(blended.texel(2, 1)[1] == 1.0f);
 }
 
-TEMPLATE_LIST_TEST_CASE("stencil counts faces apart and tests against the reference", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("stencil counts faces apart and tests against the reference", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{4, 2};
@@ -234,7 +238,8 @@ TEMPLATE_LIST_TEST_CASE("stencil counts faces apart and tests against the refere
         CHECK(test::rgba(picture, x, 1) == (x < 2 ? 0xFF0000FFu : 0x00FF00FFu));
 }
 
-TEMPLATE_LIST_TEST_CASE("a clear resets stencil, and its masks do not keep the clear away", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("a clear resets stencil, and its masks do not keep the clear away", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{2, 2};

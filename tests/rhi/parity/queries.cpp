@@ -7,7 +7,7 @@ using namespace pellucid::rhi;
 using test::own;
 
 TEMPLATE_LIST_TEST_CASE("occlusion queries count the samples that passed, and a pool can be used again", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr Extent2D size{16, 8};
@@ -44,7 +44,7 @@ TEMPLATE_LIST_TEST_CASE("occlusion queries count the samples that passed, and a 
     }
 }
 
-TEMPLATE_LIST_TEST_CASE("timestamps never run backwards", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("timestamps never run backwards", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     if (device->info().timestamp_ns == 0) return test::skip("no timestamps on this device", "PELLUCID_REQUIRE_DEVICES");

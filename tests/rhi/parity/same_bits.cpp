@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The same calls give the same bits on both backends of one driver family.
+#include <algorithm>
+#include <cmath>
 #include "support/gpu.hpp"
 
 using namespace pellucid;
@@ -26,11 +28,18 @@ bool render(Pictures& out) {
         seed = seed * 1664525u + 1013904223u;
         return static_cast<float>(seed >> 8) * 0x1p-24f;
     };
+    // Never through a pixel's centre: which of two rows a tie belongs to is the API's own affair (see raster.cpp).
+    auto place = [&](std::uint32_t texels) {
+        const float at = (random() * 1.2f - 0.1f) * static_cast<float>(texels);
+        const float off = std::abs(at - std::floor(at) - 0.5f) < 0.01f ? at + 0.03f : at;
+        return 2.0f * off / static_cast<float>(texels) - 1.0f;
+    };
     for (int i = 0; i < 200; ++i) {
-        const float x = 2.2f * random() - 1.1f, y = 2.2f * random() - 1.1f;
-        quads.push_back({.rect = {x, y, x + random(), y + random()},
-                         .color = {random() / 2, random() / 2, random() / 2, random()},
-                         .depth = {random()}});
+        const float x[] = {place(size.width), place(size.width)}, y[] = {place(size.height), place(size.height)};
+        quads.push_back(
+            {.rect = {std::min(x[0], x[1]), std::min(y[0], y[1]), std::max(x[0], x[1]), std::max(y[0], y[1])},
+             .color = {random() / 2, random() / 2, random() / 2, random()},
+             .depth = {random()}});
     }
     const auto color = test::make_target(*device, size, Format::rgba16_float);
     const auto srgb = test::make_target(*device, size, Format::rgba8_srgb);
@@ -49,6 +58,14 @@ bool render(Pictures& out) {
     out.software = device->info().software;
     return true;
 }
+/// How many values differ.
+template <class T>
+std::size_t differing(const Image<T>& a, const Image<T>& b) {
+    REQUIRE(a.data.size() == b.data.size());
+    std::size_t out = 0;
+    for (std::size_t i = 0; i < a.data.size(); ++i) out += std::memcmp(&a.data[i], &b.data[i], sizeof(T)) != 0;
+    return out;
+}
 }  // namespace
 
 #if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
@@ -60,8 +77,8 @@ TEST_CASE("both backends give the same bits: blended colour, depth, sRGB", "[gpu
     std::size_t covered = 0;
     for (const float z : vulkan.depth.data) covered += z > 0;
     CHECK(covered > vulkan.depth.data.size() / 2);  // the comparison is about something
-    CHECK(vulkan.depth.data == opengl.depth.data);
-    CHECK(vulkan.color.data == opengl.color.data);
-    CHECK(vulkan.srgb.data == opengl.srgb.data);
+    CHECK(differing(vulkan.depth, opengl.depth) == 0);
+    CHECK(differing(vulkan.color, opengl.color) == 0);
+    CHECK(differing(vulkan.srgb, opengl.srgb) == 0);
 }
 #endif

@@ -49,7 +49,7 @@ constexpr SamplerDesc nearest{.min = Filter::nearest,
                               .wrap_v = Wrap::clamp};
 }  // namespace
 
-TEMPLATE_LIST_TEST_CASE("initial texels of every level and layer; row 0 is v = 0", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("initial texels of every level and layer; row 0 is v = 0", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     // 4×2, 2 layers, 3 levels: each texel says where it is: (x, y, layer, level).
@@ -81,7 +81,7 @@ TEMPLATE_LIST_TEST_CASE("initial texels of every level and layer; row 0 is v = 0
     CHECK(level.texel(1, 0)[3] == 1.0f);
 }
 
-TEMPLATE_LIST_TEST_CASE("sampled 2D textures: filters, wraps and levels", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("sampled 2D textures: filters, wraps and levels", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const std::uint8_t texels[] = {0, 255, 255, 0, 64};  // 2×2, then 1×1
@@ -114,7 +114,7 @@ TEMPLATE_LIST_TEST_CASE("sampled 2D textures: filters, wraps and levels", "[gpu]
     CHECK(red(how, {0.25f, 0.25f, 0, 0.5f}) == Approx(32.0 / 255.0).margin(0.004));
 }
 
-TEMPLATE_LIST_TEST_CASE("sRGB textures are decoded when they are sampled", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("sRGB textures are decoded when they are sampled", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     const std::uint8_t texel[] = {188, 0, 255, 64};
@@ -129,7 +129,7 @@ TEMPLATE_LIST_TEST_CASE("sRGB textures are decoded when they are sampled", "[gpu
     CHECK(found[3] == Approx(64.0 / 255.0).margin(1e-6));
 }
 
-TEMPLATE_LIST_TEST_CASE("cube faces are +x −x +y −y +z −z, as layers 0 … 5", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("cube faces are +x −x +y −y +z −z, as layers 0 … 5", "[gpu]", test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     // Faces of 2×2; the value is 10·face + 2·row + column.
@@ -155,7 +155,8 @@ TEMPLATE_LIST_TEST_CASE("cube faces are +x −x +y −y +z −z, as layers 0 …
     for (std::size_t i = 0; i < found.size(); ++i) CHECK(found[i][0] == expected[i]);
 }
 
-TEMPLATE_LIST_TEST_CASE("generated levels are means of 2×2 for even sizes, in every layer", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("generated levels are means of 2×2 for even sizes, in every layer", "[gpu]",
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     constexpr std::uint32_t n = 8;
@@ -196,7 +197,7 @@ TEMPLATE_LIST_TEST_CASE("generated levels are means of 2×2 for even sizes, in e
 }
 
 TEMPLATE_LIST_TEST_CASE("copies between buffers and textures keep rows, levels, layers and offsets", "[gpu]",
-                        test::Backends) {
+                        test::ValidatedBackends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     std::vector<std::uint32_t> words(4 + 15);  // level 1 is 5×3: rows of 20 bytes, so no alignment helps

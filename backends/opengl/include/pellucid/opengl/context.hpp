@@ -13,8 +13,9 @@ namespace pellucid::opengl {
 
 /// One way to get a context: a device of EGL's enumeration (hardware), or Mesa's surfaceless platform.
 struct Adapter {
-    void* display = nullptr;  ///< EGLDisplay, not yet initialised
-    std::string name;         ///< for messages before there is a context
+    void* display = nullptr;   ///< EGLDisplay, not yet initialised
+    std::string name;          ///< for messages before there is a context
+    bool by_platform = false;  ///< surfaceless platform: may be a device of the enumeration once more
 };
 
 /// What there is on this machine; empty where there is no EGL.

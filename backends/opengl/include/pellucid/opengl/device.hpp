@@ -7,6 +7,10 @@
 ///   where another's is, so several devices may live on one thread; a device may not be used from a second thread.
 /// - In one process with Vulkan: destroy the OpenGL devices *before* the Vulkan device and instance.  NVIDIA's driver
 ///   (580) lets a living OpenGL context read zeros, without an error, once Vulkan is gone.
+/// - Pixels whose centres lie exactly on a horizontal edge (after snapping to 1/256 pixel) belong to the primitive
+/// above
+///   the edge here and to the one below it on Vulkan: Mesa turns the fill rule with GL_UPPER_LEFT (seen on llvmpipe
+///   22.3; other drivers not looked at).  All other coverage is the same.
 /// - Some drivers finish compiling at the first draw or dispatch of a pipeline, whatever the API promises; draw once
 ///   with each pipeline while loading where that matters.
 #include <deque>

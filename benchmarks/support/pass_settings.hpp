@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// What every benchmark of a pass may be asked on its command line.
+#include <pellucid/rhi/desc.hpp>
+#include "support/options.hpp"
+
+namespace pellucid::bench {
+
+struct PassSettings {
+    Extent2D size = {};          ///< [pixel]
+    std::uint32_t rounds = 0;    ///< timed, after `warm_up` that are not
+    std::uint32_t warm_up = 5;   ///< rounds
+    bool quick = false;          ///< a few cases only: does the program still run?
+    bool software = false;       ///< the device is a processor: the clock is around record, submit and wait
+    double bandwidth = 0;        ///< [byte/s] the floor's; 0: that of the device copy of the same run
+    std::uint32_t repeats = 1;   ///< times that a short pass is recorded between two timestamps
+    std::uint64_t copied = 0;    ///< [byte] size of the device copy
+};
+
+/// The common options: `--backend vulkan|opengl|both --device N|name --size WxH --rounds N --bandwidth TB/s --json FILE
+/// --svg FILE --quick`.
+[[nodiscard]] inline Options pass_options() {
+    return Options({{"backend", "both"},
+                    {"device", ""},
+                    {"size", "auto"},
+                    {"rounds", "auto"},
+                    {"bandwidth", "measured"},
+                    {"json", ""},
+                    {"svg", ""}},
+                   {"quick"});
+}
+
+/// The settings for one device.  GPUs: 1920x1080, 31 rounds; software: 256x256, 5 rounds; quick: 64x64, 3 rounds.
+/// Errors: invalid_argument.
+[[nodiscard]] inline Result<PassSettings> pass_settings(const Options& options, const rhi::DeviceInfo& device) {
+    PassSettings out;
+    out.quick = options.flag("quick");
+    out.software = device.software || device.timestamp_ns == 0;
+    out.size = out.quick ? Extent2D{64, 64} : out.software ? Extent2D{256, 256} : Extent2D{1920, 1080};
+    out.rounds = out.quick ? 3 : out.software ? 5 : 31;
+    if (out.quick || out.software) out.warm_up = 1;
+    out.repeats = out.software ? 1 : 4;
+    out.copied = std::uint64_t{out.quick ? 1u : out.software ? 32u : 512u} << 20u;
+
+    if (const std::string& text = options.text("size"); text != "auto") {
+        unsigned width = 0, height = 0;
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || width < 8 || height < 8 ||
+            width > 16384 || height > 16384)
+            return Error{Errc::invalid_argument,
+                         "--size is '" + text + "' but must be WIDTHxHEIGHT, each from 8 to 16384"};
+        out.size = {width, height};
+    }
+    if (options.text("rounds") != "auto") {
+        PELLUCID_TRY(out.rounds, options.number("rounds", 1, 10000));
+    }
+    if (const std::string& text = options.text("bandwidth"); text != "measured") {
+        double terabytes = 0;
+        char rest = 0;
+        if (std::sscanf(text.c_str(), "%lf%c", &terabytes, &rest) != 1 || !(terabytes > 0) || terabytes > 1000)
+            return Error{Errc::invalid_argument,
+                         "--bandwidth is '" + text + "' but must be a number of TB/s above 0 and up to 1000"};
+        out.bandwidth = terabytes * 1e12;
+    }
+    return out;
+}
+
+}  // namespace pellucid::bench

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: MIT
+// The sum of a colour of the scene group and one of the pass group, in a storage buffer.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "common/prelude.glsl"
+
+PASS_BUFFER_READ(12, Pass) { vec4 pass_color; };
+SCENE_BUFFER_READ(24, Scene) { vec4 scene_color; };
+layout(location = 0) out vec4 result;
+
+void main() { result = scene_color + pass_color; }
