@@ -3,7 +3,7 @@
 // stores is from the geometry, in double.
 //
 //     gbuffer [--backend vulkan|opengl|both] [--device N|name] [--size WxH] [--rounds N] [--bandwidth TB/s]
-//             [--json FILE] [--svg FILE] [--quick]
+//             [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
 #include <numbers>

@@ -4,7 +4,7 @@
 // formulae in double, on the surfaces that the G-buffer stores.
 //
 //     lighting [--backend vulkan|opengl|both] [--device N|name] [--size WxH] [--rounds N] [--bandwidth TB/s]
-//              [--json FILE] [--svg FILE] [--quick]
+//              [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
 #include "lighting/raw_loop.hpp"
@@ -79,7 +79,7 @@ RadianceErrors radiance_errors(const GBufferSet<B>& set, const ImageF& hdr, cons
             continue;
         }
         for (const Light& light : scene.lights)
-            out.unlit += !(glm::dot(pixel.surface.normal, sample_light(light, pixel.position).to_light) > 0);
+            out.unlit += !(glm::dot(pixel.surface.normal, reference::sample_light(light, pixel.position).to_light) > 0);
         const glm::dvec3 expected =
             reference::surface_radiance(pixel.surface, pixel.position, glm::normalize(-pixel.position), scene.lights,
                                         glm::dvec3(0), model_of(brdf));

@@ -16,8 +16,8 @@ namespace pellucid::bench {
 inline constexpr struct {
     double distance = 2;  ///< [m]
     double lean = 0.25;   ///< at the edges of the picture
-    glm::dvec3 base{0.8, 0.55, 0.3};
-    double metallic = 0.25;
+    glm::dvec3 base{1, 0, 1};  // codes that every driver's sRGB decoding gives exactly: the arithmetic is judged alone
+    double metallic = 0.2;     // 51/255
     double roughness = 0.4;
 } raw_surface;
 
