@@ -6,6 +6,7 @@
 //             [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
+#include <pellucid/gpu/scene.h>
 #include <pellucid/core/half.hpp>
 #include <pellucid/passes/tonemap.hpp>
 #include <pellucid/reference/srgb.hpp>
@@ -123,8 +124,7 @@ struct Measure {
             const CodeErrors e = code_errors(texels, radiance, curve, settings.quick ? 2000 : 50000);
             if (!e.codes.within(1))
                 return Error{Errc::internal, std::string(name(curve)) + ": a code is off by " +
-                                                 significant(e.codes.max()) +
-                                                 " of 255; the limit is 1: not timed"};
+                                                 significant(e.codes.max()) + " of 255; the limit is 1: not timed"};
             works.push_back({.name = name(curve), .record = record, .repeats = settings.repeats});
             table.rows.push_back({.scene = "20 stops",
                                   .method = name(curve),
@@ -139,8 +139,7 @@ struct Measure {
             SpeedErrorRow& row = table.rows[i];
             row.milliseconds = summarise(times[i + 1]);
             row.ratio = summarise(ratios(times[i + 1], copy.floor(settings, times[0], moved))).median;
-            row.more.insert(row.more.begin(),
-                            {"us/Mpixel", microseconds_per_megapixel(row.milliseconds.median, size)});
+            row.more.insert(row.more.begin(), {"us/Mpixel", microseconds_per_megapixel(row.milliseconds.median, size)});
         }
         table.notes = {copy.note(settings, times[0]), "the floor counts 8 B read and 4 B written a pixel"};
         return table;

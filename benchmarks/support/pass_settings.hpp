@@ -8,15 +8,15 @@
 namespace pellucid::bench {
 
 struct PassSettings {
-    Extent2D size = {};          ///< [pixel]
-    std::uint32_t rounds = 0;    ///< timed, after `warm_up` that are not
-    std::uint32_t warm_up = 5;   ///< rounds
-    bool quick = false;          ///< a few cases only: does the program still run?
-    bool software = false;       ///< the device is a processor, or has no timestamps
-    bool timestamps = true;      ///< false: the clock is around record, submit and wait
-    double bandwidth = 0;        ///< [byte/s] the floor's; 0: that of the device copy of the same run
-    std::uint32_t repeats = 1;   ///< times that a short pass is recorded between two timestamps
-    std::uint64_t copied = 0;    ///< [byte] size of the device copy
+    Extent2D size = {};         ///< [pixel]
+    std::uint32_t rounds = 0;   ///< timed, after `warm_up` that are not
+    std::uint32_t warm_up = 5;  ///< rounds
+    bool quick = false;         ///< a few cases only: does the program still run?
+    bool software = false;      ///< the device is a processor, or has no timestamps
+    bool timestamps = true;     ///< false: the clock is around record, submit and wait
+    double bandwidth = 0;       ///< [byte/s] the floor's; 0: that of the device copy of the same run
+    std::uint32_t repeats = 1;  ///< times that a short pass is recorded between two timestamps
+    std::uint64_t copied = 0;   ///< [byte] size of the device copy
 };
 
 /// The common options: `--backend vulkan|opengl|both --device N|name --size WxH --rounds N --bandwidth TB/s
