@@ -232,13 +232,13 @@ TEST_CASE("a small file cannot ask for a large scene", "[cpu][gltf]") {
     const std::string shared = R"({"asset":{"version":"2.0"},"meshes":[{"primitives":[)" + primitives + R"(]}],
         "accessors":[{"bufferView":0,"componentType":5126,"count":3000,"type":"VEC3"}],
         "bufferViews":[{"buffer":0,"byteLength":36000}],"buffers":[{"byteLength":36000}]})";
-    CHECK(refusal(shared, bin).find("the meshes up to here take") != std::string::npos);
+    CHECK(refusal(shared, bin).find("the meshes so far take") != std::string::npos);
     // Thousands of nodes that show a mesh of thousands of primitives.
     std::string nodes = "{\"mesh\":0}";
     for (int i = 0; i < 5000; ++i) nodes += ",{\"mesh\":0}";
     const std::string crowd =
         with(with(shared, R"("count":3000)", R"("count":3)"), R"("meshes")", R"("nodes":[)" + nodes + R"(],"meshes")");
-    CHECK(refusal(crowd, bin).find("meshes and instances up to here take") != std::string::npos);
+    CHECK(refusal(crowd, bin).find("meshes and instances so far take") != std::string::npos);
     // Thousands of buffers that are one file, which is read once; as many spellings of its name are not.
     const TemporaryFolder folder;
     write_bytes(folder / "a.bin", std::string(1 << 20, '\0'));
@@ -256,9 +256,22 @@ TEST_CASE("a small file cannot ask for a large scene", "[cpu][gltf]") {
     };
     CHECK(many(true) == "");
     CHECK(many(false).find("the limit is") != std::string::npos);
+    // Millions of empty objects.
+    std::string empty = "{}";
+    for (int i = 0; i < 200'000; ++i) empty += ",{}";
+    CHECK(refusal(R"({"asset":{"version":"2.0"},"materials":[)" + empty + "]}", "").find("/materials: tables so far") ==
+          0);
     GltfLimits tight;
     tight.max_json_bytes = 100;
     CHECK(refusal(triangle_json, triangle_bin(), tight).find("the limit is 100") != std::string::npos);
+}
+
+TEST_CASE("long tables take linear time", "[cpu][gltf]") {
+    // Quadratic time would be minutes here.
+    std::string nodes = R"({"extras":[]})", scenes = R"({"nodes":[0]})";
+    for (int i = 0; i < 30'000; ++i)
+        nodes += R"(,{"name":"node","extras":{"a":[1,2,3]}})", scenes += R"(,{"nodes":[1]})";
+    CHECK(refusal(R"({"asset":{"version":"2.0"},"nodes":[)" + nodes + R"(],"scenes":[)" + scenes + "]}", "") == "");
 }
 
 TEST_CASE("files that cannot be read say why", "[cpu][gltf]") {

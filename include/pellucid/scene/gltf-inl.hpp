@@ -108,8 +108,21 @@ inline void gltf_check_objects(const GltfValue& root) {
 }
 
 /// The descriptive tables through tinygltf.  Given no buffers, images or meshes, it touches no file and no memory but
-/// that of the tables.
-inline tinygltf::Model gltf_describe(const Json& root) {
+/// that of the tables, which is paid for first: an empty object in the file is three bytes, as a material a thousand.
+inline tinygltf::Model gltf_describe(const Json& root, GltfBudget& budget) {
+    const auto size = [&](const char* key) {
+        const auto found = root.find(key);
+        return found == root.end() ? std::size_t{0} : found->size();
+    };
+    const auto pay = [&](const char* key, std::size_t bytes) {
+        budget.take(size(key) * bytes, "/" + std::string(key), "tables");
+    };
+    pay("scenes", sizeof(tinygltf::Scene));
+    pay("nodes", sizeof(tinygltf::Node));
+    pay("materials", sizeof(tinygltf::Material) + sizeof(Material));
+    pay("textures", sizeof(tinygltf::Texture));
+    pay("samplers", sizeof(tinygltf::Sampler));
+    pay("cameras", sizeof(tinygltf::Camera));
     Json tables = Json::object();
     for (const char* key :
          {"asset", "scene", "scenes", "nodes", "materials", "textures", "samplers", "cameras", "extensions"})
@@ -124,10 +137,6 @@ inline tinygltf::Model gltf_describe(const Json& root) {
             if (static_cast<unsigned char>(c) < 0x20) c = ' ';
         gltf_fail("/: tinygltf cannot read the document: " + error);
     }
-    const auto size = [&](const char* key) {
-        const auto found = root.find(key);
-        return found == root.end() ? 0 : found->size();
-    };
     if (model.nodes.size() != size("nodes") || model.materials.size() != size("materials") ||
         model.textures.size() != size("textures") || model.samplers.size() != size("samplers") ||
         model.cameras.size() != size("cameras") || model.scenes.size() != size("scenes"))
@@ -174,7 +183,9 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
 
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
     const GltfData data(root, container, folder, files);
-    const tinygltf::Model model = gltf_describe(document);
+    const std::uint64_t grown = (own_bytes + data.loaded_bytes()) * limits.max_growth;
+    GltfBudget budget{.limit = std::min(limits.max_scene_bytes, (std::uint64_t{16} << 20u) + grown)};
+    const tinygltf::Model model = gltf_describe(document, budget);
     GltfLooks looks(model, scene);
     looks.read_materials(root);
 
@@ -182,8 +193,6 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"})
         for (const Json& name : root.has(key) ? root[key].json() : Json::array())
             quantization = quantization || name == "KHR_mesh_quantization";
-    const std::uint64_t grown = (own_bytes + data.loaded_bytes()) * limits.max_geometry_growth;
-    GltfBudget budget{.limit = std::min(limits.max_geometry_bytes, (std::uint64_t{16} << 20u) + grown)};
     GltfGeometry geometry(data, scene, budget, quantization);
     const auto primitives = gltf_read_meshes(root, geometry, scene);
     GltfNodes nodes(model, scene, primitives, limits.max_node_depth, budget);
