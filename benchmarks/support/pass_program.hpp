@@ -60,8 +60,10 @@ int run_pass_program(const char* stem, int argc, char** argv, Measure measure) {
                 std::fflush(stdout);
                 tables.push_back(std::move(*table));
             } else {
-                const std::string before = status ? "" : status.error().message + "; ";
-                status = Error{table.error().code, before + table.error().message};
+                const std::string& message = table.error().message;
+                const bool told = !status && status.error().message == message;
+                const std::string before = status || told ? "" : status.error().message + "; ";
+                status = Error{table.error().code, before + message};
             }
         };
         if (backend != "opengl") keep(measure_on<Vulkan>(options, measure));
