@@ -33,9 +33,8 @@ template <rhi::Backend B, class Measure>
     table.size = settings.size;
     char text[200];
     std::snprintf(text, sizeof text, "time: %s; medians of %u rounds after %u to warm up",
-                  settings.software ? "software device, so the clock around record, submit and wait"
-                                    : "GPU timestamps",
-                  settings.rounds, settings.warm_up);
+                  settings.timestamps ? "GPU timestamps" : "the clock around record, submit and wait", settings.rounds,
+                  settings.warm_up);
     table.notes.insert(table.notes.begin(), text);
     return table;
 }

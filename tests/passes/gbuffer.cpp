@@ -166,7 +166,8 @@ TEMPLATE_LIST_TEST_CASE("roughness has 16 bits, metallic 8, flags and occlusion 
         }
 }
 
-TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out as the code of k/255", "[gpu]", test::Backends) {
+TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out exactly, up to the driver's sRGB encoding", "[gpu]",
+                        test::Backends) {
     const auto device = test::make_device<TestType>();
     if (!device) return;
     Scene scene;
@@ -179,21 +180,23 @@ TEMPLATE_LIST_TEST_CASE("vertex colours k/255 come out as the code of k/255", "[
     }
     const auto shot = test::shoot<TestType>(*device, scene, test::flat_camera(), test::settings_for(n));
     const auto texels = shot.compact();
-    std::size_t off = 0;
+    double worst = 0;
     for (std::uint32_t y = 0; y < n; ++y)
         for (std::uint32_t x = 0; x < n; ++x) {
             const std::uint32_t k = y / 4 * 16 + x / 4;
             const CompactTexel& t = texels[y * n + x];
             INFO("k " << k);
-            off += (t.color & 0xFFu) != reference::srgb8_from_linear(k / 255.0);
-            off += (t.color >> 8u & 0xFFu) != reference::srgb8_from_linear((255 - k) / 255.0);
+            // Drivers round their own approximation of the encoding: software ones are off by up to 0.15 of a code.
+            for (const auto& [code, value] : {std::pair{t.color & 0xFFu, k}, {t.color >> 8u & 0xFFu, 255 - k}})
+                worst = std::max(worst, std::abs(code - 255 * reference::srgb_from_linear(value / 255.0)));
             REQUIRE((t.color >> 16u & 0xFFu) == 255u);
             if (k % 2 == 0) continue;
             // An unlit surface carries its colour as emitted radiance: k/255 to the last bit that a half keeps.
             const float* hdr = shot.hdr.texel(x, y);
             REQUIRE(hdr[0] == half_to_float(half_toward_zero(static_cast<float>(k) / 255.0f)));
         }
-    CHECK(off == 0);
+    std::printf("%s: sRGB encoding: %.3f of a code from the exact value\n", TestType::name, worst);
+    CHECK(worst <= 0.65);
 }
 
 TEMPLATE_LIST_TEST_CASE("both layouts hold the same surface", "[gpu]", test::Backends) {

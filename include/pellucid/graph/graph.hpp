@@ -130,6 +130,8 @@ void Graph<B>::cull() {
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
         for (const GraphTexture t : (*node)->desc.writes) (*node)->live = (*node)->live || wanted[t.index];
         if (!(*node)->live) continue;
+        // What this pass writes without reading it, nobody needs to have written before.
+        for (const GraphTexture t : (*node)->desc.writes) wanted[t.index] = false;
         for (const GraphTexture t : (*node)->desc.reads) wanted[t.index] = true;
     }
     for (std::size_t i = 0; i < nodes_.size(); ++i) {

@@ -104,7 +104,9 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
     pass.uses_.push_back(rhi::use(gbuffer.depth, rhi::Access::sampled));
     if (compute) pass.uses_.push_back(rhi::use(hdr, rhi::Access::storage_write));
 
-    const rhi::SpecConstant constants[] = {{0, desc.needs}, {1, static_cast<std::uint32_t>(desc.brdf)}};
+    // Translucent surfaces alone may emit: without a target there is no emitted radiance to read.
+    const std::uint32_t needs = desc.emissive ? desc.needs : desc.needs & ~PELLUCID_NEED_EMISSIVE;
+    const rhi::SpecConstant constants[] = {{0, needs}, {1, static_cast<std::uint32_t>(desc.brdf)}};
     using namespace shaders;
     const rhi::Shader* const all[2][2][2] = {{{&lighting_comp, &lighting_comp_exact}, {&lighting_frag, &lighting_frag_exact}},
                                              {{&lighting_classic_comp, &lighting_classic_comp_exact},

@@ -7,6 +7,8 @@
 #include <pellucid/passes/lighting.hpp>
 #include <pellucid/shaders/sorted_forward.hpp>
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <vector>
 
 namespace pellucid {
@@ -17,10 +19,16 @@ struct SortedItem {
     double view_depth = 0;  ///< [m] along the view direction, of the centre of the instance's bounds
 };
 
-/// Farthest first; equal depths (and NaN) keep their order, so the result never depends on the sort algorithm.
+/// Farthest first; equal depths in the order of their records, whatever the order was before; a NaN counts as nearest.
+/// A total order, so the result never depends on the sort algorithm; nothing is allocated.
 inline void sort_back_to_front(std::vector<SortedItem>& items) {
-    std::stable_sort(items.begin(), items.end(),
-                     [](const SortedItem& a, const SortedItem& b) { return a.view_depth > b.view_depth; });
+    auto depth = [](const SortedItem& item) {
+        return std::isnan(item.view_depth) ? -std::numeric_limits<double>::infinity() : item.view_depth;
+    };
+    std::sort(items.begin(), items.end(), [&](const SortedItem& a, const SortedItem& b) {
+        const double x = depth(a), y = depth(b);
+        return x != y ? x > y : a.draw.record < b.draw.record;
+    });
 }
 
 struct SortedForwardDesc {

@@ -61,6 +61,8 @@ inline constexpr float default_ambient = 0.25f;
     if (settings.every_need) {
         needs.mask = PELLUCID_NEED_ALL;
         needs.emissive_target = true;
+        needs.opaque = true;
+        needs.translucent = settings.transparency != Transparency::none;
     }
     return needs;
 }

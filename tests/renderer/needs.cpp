@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// What a scene needs, and that a renderer builds that and nothing else (on the null backend).
+#include <algorithm>
+#include <functional>
+#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/rhi/null.hpp>
+#include <string>
+#include "support/catch.hpp"
+#include "support/scene.hpp"
+
+using namespace pellucid;
+using test::add;
+
+namespace {
+/// One matte rectangle and one directional light: the least that is lit.
+Scene plain() {
+    Scene scene;
+    add(scene, test::quad(), test::matte({1, 1, 1}));
+    scene.lights = {{.kind = LightKind::directional}};
+    return scene;
+}
+void texture(Scene& scene, TextureRef& ref) {
+    if (scene.images.empty()) {
+        scene.images.push_back({Image8(4, 4, 4), "grey"});
+        std::fill(scene.images[0].pixels.data.begin(), scene.images[0].pixels.data.end(), std::uint8_t{128});
+        scene.textures.push_back({.image = 0});
+    }
+    ref.texture = 0;
+}
+std::uint32_t mask(const Scene& scene, const RenderSettings& settings = {}) {
+    return scene_needs(scene, settings).mask;
+}
+
+const PassReport& pass(const RenderStats& stats, const std::string& name) {
+    for (const PassReport& p : stats.passes)
+        if (p.name == name) return p;
+    FAIL("no report of " << name);
+    return stats.passes.front();
+}
+bool has(const RenderStats& stats, const std::string& resource) {
+    return std::any_of(stats.resources.begin(), stats.resources.end(),
+                       [&](const TextureReport& r) { return r.name == resource; });
+}
+RenderStats stats_of(const Scene& scene, RenderSettings settings = {}) {
+    settings.size = {32, 16};
+    null::Device device;
+    const auto renderer = test::must(Renderer<Null>::create(device, scene, settings));
+    (void)test::must(renderer->render({}));
+    return renderer->stats();
+}
+constexpr std::uint64_t pixels = 32 * 16;
+}  // namespace
+
+TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
+    const std::uint32_t base = PELLUCID_NEED_DIRECTIONAL;
+    CHECK(mask(plain()) == base);
+    struct Case {
+        const char* what;
+        std::function<void(Scene&)> change;
+        std::uint32_t adds;
+    };
+    const Case cases[] = {
+        {"base colour texture", [](Scene& s) { texture(s, s.materials[0].base_color_texture); },
+         PELLUCID_NEED_TEXTURES},
+        {"metallic-roughness texture", [](Scene& s) { texture(s, s.materials[0].metallic_roughness_texture); },
+         PELLUCID_NEED_TEXTURES},
+        {"normal map", [](Scene& s) { texture(s, s.materials[0].normal_texture); },
+         PELLUCID_NEED_TEXTURES | PELLUCID_NEED_NORMAL_MAPS},
+        {"occlusion", [](Scene& s) { texture(s, s.materials[0].occlusion_texture); },
+         PELLUCID_NEED_TEXTURES | PELLUCID_NEED_OCCLUSION},
+        {"emissive texture alone: times factor 0", [](Scene& s) { texture(s, s.materials[0].emissive_texture); },
+         PELLUCID_NEED_TEXTURES},
+        {"second texture coordinates",
+         [](Scene& s) {
+             texture(s, s.materials[0].base_color_texture);
+             s.materials[0].base_color_texture.uv_set = 1;
+         },
+         PELLUCID_NEED_TEXTURES | PELLUCID_NEED_SECOND_UV},
+        {"emissive",
+         [](Scene& s) {
+             s.materials[0].emissive = {0, 0.1f, 0};
+         },
+         PELLUCID_NEED_EMISSIVE},
+        {"unlit", [](Scene& s) { s.materials[0].unlit = true; }, PELLUCID_NEED_EMISSIVE | PELLUCID_NEED_UNLIT},
+        {"mask", [](Scene& s) { s.materials[0].alpha_mode = AlphaMode::mask; }, PELLUCID_NEED_ALPHA_MASK},
+        {"vertex colours",
+         [](Scene& s) {
+             s.meshes[0].colors.assign(4, {1, 1, 1, 1});
+         },
+         PELLUCID_NEED_VERTEX_COLORS},
+        {"point light", [](Scene& s) { s.lights.push_back({.kind = LightKind::point}); }, PELLUCID_NEED_POINTS},
+        {"spot light", [](Scene& s) { s.lights.push_back({.kind = LightKind::spot}); }, PELLUCID_NEED_SPOTS}};
+    for (const Case& c : cases) {
+        Scene scene = plain();
+        c.change(scene);
+        INFO(c.what);
+        CHECK(mask(scene) == (base | c.adds));
+        scene.instances.clear();  // a material that is not drawn needs nothing
+        CHECK((mask(scene) & ~(base | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) == 0u);
+    }
+    Scene dark = plain();
+    dark.lights.clear();
+    CHECK(mask(dark) == (PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT));
+    CHECK(mask(dark, {.default_light = false}) == 0u);
+    CHECK(mask(dark, {.every_need = true}) == PELLUCID_NEED_ALL);
+    // Translucent surfaces that are not drawn need nothing either.
+    Scene ghost = plain();
+    ghost.materials[0].alpha_mode = AlphaMode::blend;
+    ghost.materials[0].emissive = {1, 1, 1};
+    CHECK(scene_needs(ghost, {.transparency = Transparency::none}).translucent == false);
+    CHECK(mask(ghost, {.transparency = Transparency::none}) == base);
+    CHECK(scene_needs(ghost, {}).translucent);
+    CHECK_FALSE(scene_needs(ghost, {}).opaque);
+    CHECK_FALSE(scene_needs(ghost, {}).emissive_target);  // only opaque surfaces store what they emit
+}
+
+TEST_CASE("an opaque scene has three passes, three pipelines and the targets of its layout", "[cpu]") {
+    const RenderStats s = stats_of(plain());
+    CHECK(pass(s, "gbuffer").ran);
+    CHECK(pass(s, "lighting").ran);
+    CHECK(pass(s, "tonemap").ran);
+    CHECK_FALSE(pass(s, "sorted_forward").ran);
+    CHECK(pass(s, "sorted_forward").reason == "the scene has no translucent surface");
+    CHECK(s.pipelines == 3);
+    CHECK(s.draws == 1);
+    CHECK(s.triangles == 2);
+    CHECK(s.lights == 1);
+    CHECK_FALSE(has(s, "gbuffer.emissive"));
+    std::uint64_t targets = 0;
+    for (const TextureReport& r : s.resources)
+        if (std::string(r.name).rfind("scene.", 0) != 0) targets += r.bytes;
+    CHECK(targets == pixels * (16 + 8 + 4));  // compact G-buffer with depth, HDR, display
+    const RenderStats classic = stats_of(plain(), {.gbuffer = GBufferLayout::classic});
+    CHECK(classic.bytes - s.bytes == pixels * 20);
+}
+
+TEST_CASE("what a scene adds is what it costs", "[cpu]") {
+    const RenderStats base = stats_of(plain());
+    Scene scene = plain();
+    scene.materials[0].emissive = {1, 1, 1};
+    RenderStats s = stats_of(scene);
+    CHECK(has(s, "gbuffer.emissive"));
+    CHECK(s.bytes == base.bytes + pixels * 8);
+    CHECK(s.pipelines == base.pipelines);
+
+    scene = plain();
+    Material two_sided = test::matte({1, 0, 0});
+    two_sided.double_sided = true;
+    add(scene, test::quad(), two_sided);
+    add(scene, test::quad(), test::matte({0, 1, 0}), test::scaled(-1, 1, 1));
+    CHECK(stats_of(scene).pipelines == base.pipelines + 2);  // no culling, culling of front faces
+    CHECK(stats_of(scene).draws == 3);
+
+    scene = plain();
+    Material glass = test::matte({1, 0, 0});
+    glass.alpha_mode = AlphaMode::blend;
+    glass.emissive = {1, 1, 1};
+    add(scene, test::quad(), glass);
+    s = stats_of(scene);
+    CHECK(pass(s, "sorted_forward").ran);
+    CHECK(s.pipelines == base.pipelines + 1);
+    CHECK_FALSE(has(s, "gbuffer.emissive"));
+    CHECK(s.draws == 2);
+    scene.materials[1].double_sided = true;
+    CHECK(stats_of(scene).pipelines == base.pipelines + 2);
+    CHECK(stats_of(scene).draws == 3);  // back faces, front faces
+    s = stats_of(scene, {.transparency = Transparency::none});
+    CHECK_FALSE(pass(s, "sorted_forward").ran);
+    CHECK(pass(s, "sorted_forward").reason == "transparency is switched off");
+    CHECK(s.pipelines == base.pipelines);
+    CHECK(s.draws == 1);
+
+    scene = plain();
+    texture(scene, scene.materials[0].base_color_texture);
+    s = stats_of(scene);
+    CHECK(has(s, "scene.color_textures"));
+    CHECK_FALSE(has(s, "scene.data_textures"));
+    CHECK(s.bytes == base.bytes + 4 * (16 + 4 + 1));
+    texture(scene, scene.materials[0].occlusion_texture);
+    CHECK(has(stats_of(scene), "scene.data_textures"));
+}
+
+TEST_CASE("a scene without opaque surfaces has no G-buffer, and an empty one no depth either", "[cpu]") {
+    Scene scene;
+    add(scene, test::quad(), test::flat({1, 1, 1, 0.5f}, AlphaMode::blend));
+    RenderStats s = stats_of(scene);
+    for (const char* name : {"gbuffer", "lighting"}) {
+        CHECK_FALSE(pass(s, name).ran);
+        CHECK(pass(s, name).reason == "the scene has no opaque surface");
+    }
+    CHECK(pass(s, "background").ran);
+    CHECK(pass(s, "sorted_forward").ran);
+    CHECK(has(s, "depth"));
+    CHECK_FALSE(has(s, "gbuffer.normal"));
+    CHECK(s.pipelines == 2);
+    s = stats_of(Scene{});
+    CHECK(pass(s, "background").ran);
+    CHECK_FALSE(pass(s, "sorted_forward").ran);
+    CHECK_FALSE(has(s, "depth"));
+    CHECK(s.pipelines == 1);
+    CHECK(s.draws == 0);
+    // Asked to build everything, it does.
+    s = stats_of(Scene{}, {.every_need = true});
+    for (const char* name : {"gbuffer", "lighting", "sorted_forward", "tonemap"}) CHECK(pass(s, name).ran);
+    CHECK(has(s, "gbuffer.emissive"));
+}
