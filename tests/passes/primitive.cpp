@@ -4,6 +4,7 @@
 #include <pellucid/renderer/renderer.hpp>
 #include <pellucid/scene/framing.hpp>
 #include <pellucid/scene/gltf.hpp>
+#include <pellucid/scene/mipmap.hpp>
 #include <set>
 #include "support/assets.hpp"
 #include "support/gpu.hpp"
@@ -32,18 +33,34 @@ double angle_between(std::uint32_t a, std::uint32_t b) {
     return glm::degrees(std::atan2(glm::length(glm::cross(u, v)), glm::dot(u, v)));
 }
 
+/// [degree] the largest angle between neighbouring texels of a normal map, over all its levels.
+double texel_contrast(const Image8& map) {
+    double contrast = 0;
+    for (const Image8& level : make_mipmaps(map, MipContent::data)) {
+        auto normal = [&](std::uint32_t x, std::uint32_t y) {
+            const std::uint8_t* t = level.texel(x % level.width, y % level.height);
+            return glm::normalize(glm::dvec3(t[0], t[1], t[2]) / 127.5 - 1.0);
+        };
+        for (std::uint32_t y = 0; y < level.height; ++y)
+            for (std::uint32_t x = 0; x < level.width; ++x)
+                for (const glm::dvec3& other : {normal(x + 1, y), normal(x, y + 1)})
+                    contrast = std::max(contrast, std::acos(std::min(glm::dot(normal(x, y), other), 1.0)));
+    }
+    return glm::degrees(contrast);
+}
+
 /// [degree] what a normal may be off by: one code each way (neighbouring octahedral codes are at most 0.0075 degrees
-/// apart), and 1/128 of the largest step to a neighbouring pixel: the rasteriser snaps vertices to 1/256 pixel and the
-/// sampler its filter weights to 1/256, which a rebuilt surface does not know.
-double normal_tolerance(const Image<std::uint32_t>& normal, const Image<float>& depth, std::uint32_t x,
-                        std::uint32_t y) {
+/// apart); 2/256 of the largest step to a neighbouring pixel, as the rasteriser snaps vertices to 1/256 pixel; and 3/256 of
+/// the largest step between texels of a normal map, as the sampler's three weights (u, v, level) have 8 bits.
+double normal_tolerance(const Image<std::uint32_t>& normal, const Image<float>& depth, std::uint32_t x, std::uint32_t y,
+                        double contrast) {
     double step = 0;
     auto look = [&](std::uint32_t u, std::uint32_t v) {
         if (u >= normal.width || v >= normal.height || *depth.texel(u, v) == 0) return;
         step = std::max(step, angle_between(*normal.texel(x, y), *normal.texel(u, v)));
     };
     look(x - 1, y), look(x + 1, y), look(x, y - 1), look(x, y + 1);
-    return 0.0075 + step / 128;
+    return 0.0075 + step * 2 / 256 + contrast * 3 / 256;
 }
 
 /// How far a rebuilt texel may be from the stored one.
@@ -151,13 +168,19 @@ Differences rebuild(typename B::Device& device, Scene scene) {
         ends.push_back((ends.empty() ? 0 : ends.back()) + static_cast<std::uint32_t>(mesh.indices.size() / 3));
         owners.push_back(mesh.material);
     }
+    std::vector<double> contrasts;
+    for (const Material& m : scene.materials)
+        contrasts.push_back(m.normal_texture.used()
+                                ? texel_contrast(scene.images[scene.textures[m.normal_texture.texture].image].pixels)
+                                : 0.0);
     Differences out;
     for (std::size_t i = 0; i < rebuilt.size(); ++i) {
         REQUIRE((depth.data[i] != 0) == (id.data[i] != PELLUCID_NO_PRIMITIVE));
         if (depth.data[i] == 0) continue;
         ++out.pixels;
         const auto owner = std::upper_bound(ends.begin(), ends.end(), id.data[i]) - ends.begin();
-        out.materials.insert(owners[static_cast<std::size_t>(owner)]);
+        const std::uint32_t material_of = owners[static_cast<std::size_t>(owner)];
+        out.materials.insert(material_of);
         const double angle = angle_between(normal.data[i], rebuilt[i].normal);
         int base_off = 0;
         for (std::size_t c = 0; c < 4; ++c)
@@ -169,7 +192,8 @@ Differences rebuild(typename B::Device& device, Scene scene) {
         out.worst_angle = std::max(out.worst_angle, angle);
         out.worst_base = std::max(out.worst_base, base_off);
         const auto x = static_cast<std::uint32_t>(i % size.width), y = static_cast<std::uint32_t>(i / size.width);
-        out.beyond += angle > normal_tolerance(normal, depth, x, y) || base_off > 1 || metal_off > 1 || rough_off > 257;
+        out.beyond += angle > normal_tolerance(normal, depth, x, y, contrasts[material_of]) || base_off > 1 ||
+                      metal_off > 1 || rough_off > 257;
     }
     return out;
 }
