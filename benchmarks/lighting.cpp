@@ -4,7 +4,7 @@
 // formulae in double, on the surfaces that the G-buffer stores.
 //
 //     lighting [--backend vulkan|opengl|both] [--device N|name] [--size WxH] [--rounds N] [--bandwidth TB/s]
-//              [--json FILE] [--svg FILE] [--quick]
+//              [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
 #include "lighting/raw_loop.hpp"
@@ -58,20 +58,11 @@ std::vector<Variant> variants(const std::vector<LitScene>& scenes) {
     return out;
 }
 
-/// Radiance against the double-precision formulae on the stored surfaces, scaled by max(1, reference).  The target's
-/// own rounding (binary16, toward zero) is in the error; `off_code` is the share of values that are not the code of
-/// the reference, in which it is not.
-struct RadianceErrors {
-    ErrorSample scaled;
-    double off_code = 0;
-    std::uint32_t unlit = 0;  ///< light and pixel pairs that do not see each other
-};
-
+/// The lighting pass on the surfaces that the G-buffer stores.
 template <rhi::Backend B>
 RadianceErrors radiance_errors(const GBufferSet<B>& set, const ImageF& hdr, const Scene& scene, Brdf brdf,
                                std::uint32_t samples) {
     RadianceErrors out;
-    std::uint64_t off = 0;
     for (const auto [x, y] : sample_pixels(set.targets.size, samples)) {
         const StoredPixel pixel = stored_pixel(set, bench_camera(), x, y);
         if (!pixel.covered) {
@@ -79,31 +70,28 @@ RadianceErrors radiance_errors(const GBufferSet<B>& set, const ImageF& hdr, cons
             continue;
         }
         for (const Light& light : scene.lights)
-            out.unlit += !(glm::dot(pixel.surface.normal, sample_light(light, pixel.position).to_light) > 0);
+            out.below_horizon +=
+                !(glm::dot(pixel.surface.normal, reference::sample_light(light, pixel.position).to_light) > 0);
         const glm::dvec3 expected =
             reference::surface_radiance(pixel.surface, pixel.position, glm::normalize(-pixel.position), scene.lights,
                                         glm::dvec3(0), model_of(brdf));
-        for (int c = 0; c < 3; ++c) {
-            out.scaled.add_scaled(hdr.texel(x, y)[c], expected[c]);
-            off += hdr.texel(x, y)[c] != half_to_float(half_toward_zero(static_cast<float>(expected[c])));
-        }
+        out.add(hdr.texel(x, y), expected);
     }
-    out.off_code = static_cast<double>(off) / static_cast<double>(std::max<std::size_t>(1, out.scaled.count()));
     return out;
 }
 
 Result<void> check(const RadianceErrors& e, const std::string& where) {
     // One step of binary16 is 2^-10 of the value; float arithmetic takes far less than that again.
     constexpr double limit = 2.0 / 1024;
-    if (e.unlit > 0)
-        return Error{Errc::internal, where + ": " + std::to_string(e.unlit) +
+    if (e.below_horizon > 0)
+        return Error{Errc::internal, where + ": " + std::to_string(e.below_horizon) +
                                          " lights are below the horizon of a sampled pixel, so the count is not that "
                                          "of the work: not timed"};
     if (e.scaled.within(limit)) return {};
     return Error{Errc::internal, where + ": the radiance is off by up to " + significant(e.scaled.max()) + " in " +
                                      std::to_string(e.scaled.count()) + " values (" +
-                                     std::to_string(e.scaled.nonfinite()) + " not finite or not covered); the limit is " +
-                                     significant(limit) + ": not timed"};
+                                     std::to_string(e.scaled.nonfinite()) +
+                                     " not finite or not covered); the limit is " + significant(limit) + ": not timed"};
 }
 
 struct Measure {
@@ -114,7 +102,8 @@ struct Measure {
         const double pixels = static_cast<double>(size.width) * size.height;
         const std::uint32_t samples = settings.quick ? 100 : 500;
         const RenderSettings render{.size = size, .default_light = false};
-        SpeedErrorTable table{.stem = "lighting", .baseline = "floor", .error = "radiance, scaled by max(1, reference)"};
+        SpeedErrorTable table{
+            .stem = "lighting", .baseline = "floor", .error = "radiance, scaled by max(1, reference)"};
 
         std::vector<LitScene> scenes;
         for (const std::uint32_t count : {1u, 4u, 16u, 64u, 256u})
@@ -153,32 +142,42 @@ struct Measure {
 
         PELLUCID_TRY(const CopyFloor<B> copy, CopyFloor<B>::create(device, settings));
         std::vector<Work<B>> works = {copy.work()};
-        std::vector<double> moved;
-        std::vector<std::size_t> raw_of;  // for each row, the work of the raw loop with as many lights
-        std::vector<RawLoop<B>> raw;
-        raw.reserve(scenes.size());
-        for (std::size_t s = 0; s < scenes.size(); ++s) {
-            if (scenes[s].kind != LightKind::point) continue;
-            PELLUCID_TRY(auto made, RawLoop<B>::create(device, size, scenes[s].content.lights, hdr));
-            raw.push_back(std::move(made));
-            const auto record = [&loop = raw.back()](rhi::CommandsFor<B>& cmd) { loop.record(cmd); };
-            const auto once = [&](rhi::CommandsFor<B>& cmd) -> Result<void> { return record(cmd), Result<void>{}; };
-            PELLUCID_CHECK(run_frame<B>(device, once));
-            PELLUCID_TRY(const ImageF image, read_hdr<B>(device, hdr, size));
-            const ErrorSample e = raw_errors(image, scenes[s].content.lights, samples);
-            const std::string where = "raw loop, " + setting_of(scenes[s]);
-            PELLUCID_CHECK(check({.scaled = e}, where));
-            raw_of.push_back(works.size());
-            works.push_back({.name = where, .record = record, .repeats = settings.repeats});
-            moved.push_back(8 * pixels);
+        std::vector<double> moved;         // [byte] of each row
+        std::vector<std::size_t> raw_row;  // of each row: that of the raw loop with as many lights, or its own
+        const auto add = [&](const LitScene& lit, const std::string& method, const RadianceErrors& e, double bytes,
+                             std::function<void(rhi::CommandsFor<B>&)> record, std::uint32_t repeats) -> Result<void> {
+            const std::string where = method + ", " + setting_of(lit);
+            PELLUCID_CHECK(check(e, where));
+            works.push_back({.name = where, .record = std::move(record), .repeats = repeats});
+            moved.push_back(bytes * pixels);
+            raw_row.push_back(table.rows.size());
+            for (std::size_t r = 0; r < table.rows.size(); ++r)
+                if (table.rows[r].method == raw_forms[0].name && table.rows[r].setting == setting_of(lit))
+                    raw_row.back() = r;
             table.rows.push_back({.scene = "lights",
-                                  .method = "raw loop",
-                                  .setting = setting_of(scenes[s]),
-                                  .rmse = e.rms(),
-                                  .p999 = e.p999(),
-                                  .max_error = e.max()});
-        }
-        const std::size_t raw_rows = table.rows.size();
+                                  .method = method,
+                                  .setting = setting_of(lit),
+                                  .rmse = e.scaled.rms(),
+                                  .p999 = e.scaled.p999(),
+                                  .max_error = e.scaled.max(),
+                                  .bytes = static_cast<std::uint64_t>(moved.back()),
+                                  .more = {{"off the reference's code [%]", 100 * e.off_code()}}});
+            return {};
+        };
+        std::vector<RawLoop<B>> raw;
+        raw.reserve(scenes.size() * std::size(raw_forms));
+        for (const RawForm& form : raw_forms)
+            for (const LitScene& lit : scenes) {
+                if (lit.kind != LightKind::point || (form.form + form.storage != 0 && lit.lights < 16)) continue;
+                PELLUCID_TRY(auto made, RawLoop<B>::create(device, size, form, lit.content.lights, hdr));
+                raw.push_back(std::move(made));
+                const auto record = [&loop = raw.back()](rhi::CommandsFor<B>& cmd) { loop.record(cmd); };
+                const auto once = [&](rhi::CommandsFor<B>& cmd) -> Result<void> { return record(cmd), Result<void>{}; };
+                PELLUCID_CHECK(run_frame<B>(device, once));
+                PELLUCID_TRY(const ImageF image, read_hdr<B>(device, hdr, size));
+                const RadianceErrors e = raw_errors(image, lit.content.lights, samples);
+                PELLUCID_CHECK(add(lit, form.name, e, 8, record, lit.lights > 16 ? 1 : settings.repeats));
+            }
 
         const std::vector<Variant> chosen = variants(scenes);
         std::vector<LightingPass<B>> passes;
@@ -186,9 +185,8 @@ struct Measure {
         for (const Variant& v : chosen) {
             const LitScene& lit = scenes[v.scene];
             const GBufferSet<B>& set = sets[v.layout == GBufferLayout::compact ? 0 : 1];
-            const std::string method = std::string(name(v.layout)) + " " + name(v.stage) + " " + name(v.brdf) +
-                                       (v.exact ? " exact" : "");
-            const std::string where = method + ", " + setting_of(lit);
+            const std::string method =
+                std::string(name(v.layout)) + " " + name(v.stage) + " " + name(v.brdf) + (v.exact ? " exact" : "");
             PELLUCID_TRY(auto pass, LightingPass<B>::create(device,
                                                             {.layout = v.layout,
                                                              .stage = v.stage,
@@ -208,21 +206,8 @@ struct Measure {
             PELLUCID_CHECK(run_frame<B>(device, once));
             PELLUCID_TRY(const ImageF image, read_hdr<B>(device, hdr, size));
             const RadianceErrors e = radiance_errors(set, image, lit.content, v.brdf, samples);
-            PELLUCID_CHECK(check(e, where));
             const bool slow = v.stage == ShadingStage::fragment || lit.lights > 16;
-            works.push_back({.name = where, .record = record, .repeats = slow ? 1 : settings.repeats});
-            moved.push_back((set.bytes_per_pixel + 8) * pixels);
-            raw_of.push_back(0);
-            for (std::size_t r = 0; r < raw_rows && lit.kind == LightKind::point; ++r)
-                if (table.rows[r].setting == setting_of(lit)) raw_of.back() = r + 1;
-            table.rows.push_back({.scene = "lights",
-                                  .method = method,
-                                  .setting = setting_of(lit),
-                                  .rmse = e.scaled.rms(),
-                                  .p999 = e.scaled.p999(),
-                                  .max_error = e.scaled.max(),
-                                  .bytes = static_cast<std::uint64_t>(moved.back()),
-                                  .more = {{"off the reference's code [%]", 100 * e.off_code}}});
+            PELLUCID_CHECK(add(lit, method, e, set.bytes_per_pixel + 8, record, slow ? 1 : settings.repeats));
         }
 
         PELLUCID_TRY(const RoundTimes times, time_works<B>(device, settings, works, begin));
@@ -231,10 +216,9 @@ struct Measure {
             const std::vector<double>& ms = times[i + 1];
             row.milliseconds = summarise(ms);
             row.ratio = summarise(ratios(ms, copy.floor(settings, times[0], moved[i]))).median;
-            row.more.insert(row.more.begin(),
-                            {"us/Mpixel", microseconds_per_megapixel(row.milliseconds.median, size)});
-            if (raw_of[i] != 0)
-                row.more.push_back({"x raw loop", summarise(ratios(ms, times[raw_of[i]])).median});
+            row.more.insert(row.more.begin(), {"us/Mpixel", microseconds_per_megapixel(row.milliseconds.median, size)});
+            if (raw_row[i] != i || row.method == raw_forms[0].name)
+                row.more.push_back({"x raw loop", summarise(ratios(ms, times[raw_row[i] + 1])).median});
         }
         table.notes = {copy.note(settings, times[0]),
                        "the floor counts the G-buffer read once and 8 B written: 24 B (compact), 44 B (classic), 8 B "

@@ -5,11 +5,11 @@
 #     #include <pellucid/shaders/<stem>.hpp>      // pellucid::shaders::<stem>_<file>_<stage>  (a rhi::Shader)
 # e.g. shaders/gbuffer/gbuffer.frag -> pellucid::shaders::gbuffer_frag (the stem is not repeated).  Files listed after
 # EXACT are built a second time with PELLUCID_EXACT, as ..._exact: the same bits on every API.
+# The global property PELLUCID_SHADERS_OF_<target> lists them all as <stem>/<name>.
 # Includes are found in the file's own folder, in Pellucid's shaders/ and include/, and in the target's include folders;
 # changing any of them rebuilds what includes it.
 find_program(PELLUCID_GLSLANG glslangValidator)
 find_program(PELLUCID_SPIRV_VAL spirv-val)
-set(PELLUCID_SHADER_TOOLS ${CMAKE_CURRENT_LIST_DIR})
 if(NOT PELLUCID_GLSLANG)
   message(FATAL_ERROR "glslangValidator was not found: install the package glslang-tools")
 endif()
@@ -18,10 +18,12 @@ function(pellucid_add_shader target stem)
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "FILES;EXACT")
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated/pellucid/shaders)
   file(MAKE_DIRECTORY ${folder}/${stem})
-  if(EXISTS ${PELLUCID_SHADER_TOOLS}/../include/pellucid/gpu)
-    set(includes ${PELLUCID_SHADER_TOOLS} ${PELLUCID_SHADER_TOOLS}/../include)
+  set(tools ${CMAKE_CURRENT_FUNCTION_LIST_DIR})
+  if(EXISTS ${tools}/../include/pellucid/gpu)
+    set(includes ${tools} ${tools}/../include)  # in the source tree
   else()
-    set(includes ${PELLUCID_SHADER_TOOLS} ${PELLUCID_INCLUDE_DIR})
+    get_target_property(includes pellucid::pellucid INTERFACE_INCLUDE_DIRECTORIES)  # installed
+    list(PREPEND includes ${tools})
   endif()
   set(declarations)
   set(definitions)
@@ -54,10 +56,11 @@ function(pellucid_add_shader target stem)
       add_custom_command(OUTPUT ${output}
         COMMAND ${CMAKE_COMMAND} -DSOURCE=${source} -DNAME=${variant} -DLABEL=${stem}/${base}.${suffix}
           -DSTAGE=${stage} -DEXACT=${exact} -DOUTPUT=${output} "-DINCLUDES=${includes}" -DGLSLANG=${PELLUCID_GLSLANG}
-          -DSPIRV_VAL=$<$<BOOL:${PELLUCID_SPIRV_VAL}>:${PELLUCID_SPIRV_VAL}> -P ${PELLUCID_SHADER_TOOLS}/compile.cmake
-        DEPENDS ${source} ${PELLUCID_SHADER_TOOLS}/compile.cmake DEPFILE ${output}.d
+          -DSPIRV_VAL=$<$<BOOL:${PELLUCID_SPIRV_VAL}>:${PELLUCID_SPIRV_VAL}> -P ${tools}/compile.cmake
+        DEPENDS ${source} ${tools}/compile.cmake DEPFILE ${output}.d
         COMMENT "Shader ${stem}/${base}.${suffix}${note}" VERBATIM)
       list(APPEND outputs ${output})
+      set_property(GLOBAL APPEND PROPERTY PELLUCID_SHADERS_OF_${target} ${stem}/${variant})
       string(APPEND declarations "extern const ::pellucid::rhi::Shader ${variant};\n")
       string(APPEND definitions "#include <pellucid/shaders/${stem}/${variant}-inl.hpp>\n")
     endforeach()

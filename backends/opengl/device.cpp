@@ -112,7 +112,9 @@ void debug_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length,
     const std::string_view said(message, length < 0 ? std::strlen(message) : static_cast<std::size_t>(length));
     const bool error =
         severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
-    sink->log(error ? Severity::error : Severity::warning, ("OpenGL: " + std::string(said)).c_str());
+    // Advice on speed is not misuse: drivers tell of their own recompiles and buffer moves.
+    const bool advice = type == GL_DEBUG_TYPE_PERFORMANCE;
+    sink->log(error ? Severity::error : advice ? Severity::info : Severity::warning, ("OpenGL: " + std::string(said)).c_str());
 }
 
 void start_debug_output(DebugSink& sink) {

@@ -67,12 +67,6 @@ VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT
                                           VkDebugUtilsMessageTypeFlagsEXT,
                                           const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     const char* text = data->pMessage ? data->pMessage : "";
-    // glslang decorates the member gl_Position of its block `invariant`, which an old rule of the SPIR-V validator
-    // warns about; the decoration is legal there and does what it says.
-    if (data->pMessageIdName &&
-        std::strcmp(data->pMessageIdName, "UNASSIGNED-CoreValidation-Shader-InconsistentSpirv") == 0 &&
-        std::strstr(text, "SpvDecorationInvariant"))
-        return VK_FALSE;
     const bool error = severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     (*static_cast<const LogSink*>(user))(error ? Severity::error : Severity::warning, text);
     return VK_FALSE;

@@ -16,14 +16,12 @@ struct CopyFloor {
     [[nodiscard]] static Result<CopyFloor> create(rhi::DeviceFor<B>& device, const PassSettings& settings) {
         CopyFloor out;
         out.bytes = settings.copied;
-        PELLUCID_OWN(
-            out.from, device,
-            device.make_buffer(
-                {.size = out.bytes, .usage = rhi::BufferUsage::copy_source, .debug_name = "floor.from"}));
-        PELLUCID_OWN(
-            out.to, device,
-            device.make_buffer(
-                {.size = out.bytes, .usage = rhi::BufferUsage::copy_destination, .debug_name = "floor.to"}));
+        PELLUCID_OWN(out.from, device,
+                     device.make_buffer(
+                         {.size = out.bytes, .usage = rhi::BufferUsage::copy_source, .debug_name = "floor.from"}));
+        PELLUCID_OWN(out.to, device,
+                     device.make_buffer(
+                         {.size = out.bytes, .usage = rhi::BufferUsage::copy_destination, .debug_name = "floor.to"}));
         return out;
     }
     [[nodiscard]] Work<B> work() const {

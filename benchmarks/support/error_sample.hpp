@@ -18,9 +18,7 @@ public:
             ++nonfinite_;
     }
     /// |value - reference| / max(1, |reference|).
-    void add_scaled(double value, double reference) {
-        add((value - reference) / std::max(1.0, std::abs(reference)));
-    }
+    void add_scaled(double value, double reference) { add((value - reference) / std::max(1.0, std::abs(reference))); }
     [[nodiscard]] std::size_t count() const noexcept { return errors_.size(); }
     [[nodiscard]] std::size_t nonfinite() const noexcept { return nonfinite_; }
     [[nodiscard]] double rms() const {
@@ -28,9 +26,7 @@ public:
         for (const double e : errors_) sum += e * e;
         return errors_.empty() ? 0 : std::sqrt(sum / static_cast<double>(errors_.size()));
     }
-    [[nodiscard]] double max() const {
-        return errors_.empty() ? 0 : *std::max_element(errors_.begin(), errors_.end());
-    }
+    [[nodiscard]] double max() const { return errors_.empty() ? 0 : *std::max_element(errors_.begin(), errors_.end()); }
     [[nodiscard]] double p999() const {
         std::vector<double> copy = errors_;
         return measure::nearest_rank(copy, 0.999);

@@ -85,8 +85,8 @@ template <rhi::Backend B>
                                                          .material = set.texels[2].template at<std::uint32_t>(x, y),
                                                          .depth = depth});
         const reference::ClipCoefficients<double> clip(clip_from_view(camera, set.targets.size));
-        out.position = reference::view_from_depth(
-            clip, reference::ndc_from_pixel<double>(x, y, set.targets.size), static_cast<double>(depth));
+        out.position = reference::view_from_depth(clip, reference::ndc_from_pixel<double>(x, y, set.targets.size),
+                                                  static_cast<double>(depth));
         return out;
     }
     struct Float4 {
@@ -102,9 +102,10 @@ template <rhi::Backend B>
     const auto normal = set.texels[1].template at<Half4>(x, y);
     const auto base = set.texels[2].template at<Byte4>(x, y);
     const auto material = set.texels[3].template at<Byte4>(x, y);
-    out.position = glm::dvec3(rigid_inverse(camera.world_from_view) * glm::dvec4(world.v[0], world.v[1], world.v[2], 1));
-    out.surface.normal = glm::normalize(
-        glm::dvec3(half_to_float(normal.v[0]), half_to_float(normal.v[1]), half_to_float(normal.v[2])));
+    out.position =
+        glm::dvec3(rigid_inverse(camera.world_from_view) * glm::dvec4(world.v[0], world.v[1], world.v[2], 1));
+    out.surface.normal =
+        glm::normalize(glm::dvec3(half_to_float(normal.v[0]), half_to_float(normal.v[1]), half_to_float(normal.v[2])));
     for (int i = 0; i < 3; ++i) out.surface.base_color[i] = reference::linear_from_srgb8(base.v[i]);
     out.surface.metallic = material.v[0] / 255.0;
     out.surface.roughness = material.v[1] / 255.0;

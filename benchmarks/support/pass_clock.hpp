@@ -43,13 +43,13 @@ template <rhi::Backend B, class Begin>
                                             const std::vector<Work<B>>& works, Begin begin) {
     RoundTimes times(works.size());
     std::optional<measure::GpuTimer<B>> timer;
-    if (!settings.software) {
+    if (settings.timestamps) {
         PELLUCID_TRY(timer,
                      measure::GpuTimer<B>::create(device, {.max_scopes = static_cast<std::uint32_t>(works.size())}));
     }
     for (std::uint32_t round = 0; round < settings.warm_up + settings.rounds; ++round) {
         const bool kept = round >= settings.warm_up;
-        if (settings.software) {
+        if (!settings.timestamps) {
             for (std::size_t i = 0; i < works.size(); ++i) {
                 double start = 0;
                 const auto record = [&](rhi::CommandsFor<B>& cmd) -> Result<void> {

@@ -33,9 +33,8 @@ template <rhi::Backend B, class Measure>
     table.size = settings.size;
     char text[200];
     std::snprintf(text, sizeof text, "time: %s; medians of %u rounds after %u to warm up",
-                  settings.software ? "software device, so the clock around record, submit and wait"
-                                    : "GPU timestamps",
-                  settings.rounds, settings.warm_up);
+                  settings.timestamps ? "GPU timestamps" : "the clock around record, submit and wait", settings.rounds,
+                  settings.warm_up);
     table.notes.insert(table.notes.begin(), text);
     return table;
 }
@@ -61,8 +60,10 @@ int run_pass_program(const char* stem, int argc, char** argv, Measure measure) {
                 std::fflush(stdout);
                 tables.push_back(std::move(*table));
             } else {
-                const std::string before = status ? "" : status.error().message + "; ";
-                status = Error{table.error().code, before + table.error().message};
+                const std::string& message = table.error().message;
+                const bool told = !status && status.error().message == message;
+                const std::string before = status || told ? "" : status.error().message + "; ";
+                status = Error{table.error().code, before + message};
             }
         };
         if (backend != "opengl") keep(measure_on<Vulkan>(options, measure));

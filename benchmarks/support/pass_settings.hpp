@@ -8,24 +8,26 @@
 namespace pellucid::bench {
 
 struct PassSettings {
-    Extent2D size = {};          ///< [pixel]
-    std::uint32_t rounds = 0;    ///< timed, after `warm_up` that are not
-    std::uint32_t warm_up = 5;   ///< rounds
-    bool quick = false;          ///< a few cases only: does the program still run?
-    bool software = false;       ///< the device is a processor: the clock is around record, submit and wait
-    double bandwidth = 0;        ///< [byte/s] the floor's; 0: that of the device copy of the same run
-    std::uint32_t repeats = 1;   ///< times that a short pass is recorded between two timestamps
-    std::uint64_t copied = 0;    ///< [byte] size of the device copy
+    Extent2D size = {};         ///< [pixel]
+    std::uint32_t rounds = 0;   ///< timed, after `warm_up` that are not
+    std::uint32_t warm_up = 5;  ///< rounds
+    bool quick = false;         ///< a few cases only: does the program still run?
+    bool software = false;      ///< the device is a processor, or has no timestamps
+    bool timestamps = true;     ///< false: the clock is around record, submit and wait
+    double bandwidth = 0;       ///< [byte/s] the floor's; 0: that of the device copy of the same run
+    std::uint32_t repeats = 1;  ///< times that a short pass is recorded between two timestamps
+    std::uint64_t copied = 0;   ///< [byte] size of the device copy
 };
 
-/// The common options: `--backend vulkan|opengl|both --device N|name --size WxH --rounds N --bandwidth TB/s --json FILE
-/// --svg FILE --quick`.
+/// The common options: `--backend vulkan|opengl|both --device N|name --size WxH --rounds N --bandwidth TB/s
+/// --clock auto|timestamps|wall --json FILE --svg FILE --quick`.
 [[nodiscard]] inline Options pass_options() {
     return Options({{"backend", "both"},
                     {"device", ""},
                     {"size", "auto"},
                     {"rounds", "auto"},
                     {"bandwidth", "measured"},
+                    {"clock", "auto"},
                     {"json", ""},
                     {"svg", ""}},
                    {"quick"});
@@ -55,6 +57,12 @@ struct PassSettings {
     if (options.text("rounds") != "auto") {
         PELLUCID_TRY(out.rounds, options.number("rounds", 1, 10000));
     }
+    const std::string& clock = options.text("clock");
+    if (clock != "auto" && clock != "timestamps" && clock != "wall")
+        return Error{Errc::invalid_argument, "--clock is '" + clock + "' but must be auto, timestamps or wall"};
+    if (clock == "timestamps" && device.timestamp_ns == 0)
+        return Error{Errc::invalid_argument, "--clock timestamps: " + device.name + " has none; use --clock wall"};
+    out.timestamps = clock == "auto" ? !out.software : clock == "timestamps";
     if (const std::string& text = options.text("bandwidth"); text != "measured") {
         double terabytes = 0;
         char rest = 0;

@@ -33,8 +33,7 @@ public:
             Placed placed{.mesh = &mesh};
             for (const glm::vec3& p : mesh.positions)
                 placed.positions.push_back(glm::dvec3(m * glm::dvec4(glm::dvec3(p), 1)));
-            for (const glm::vec3& n : mesh.normals)
-                placed.normals.push_back(glm::normalize(normals * glm::dvec3(n)));
+            for (const glm::vec3& n : mesh.normals) placed.normals.push_back(glm::normalize(normals * glm::dvec3(n)));
             for (const glm::dvec3& p : placed.positions) placed.center += p / double(placed.positions.size());
             for (const glm::dvec3& p : placed.positions)
                 placed.radius = std::max(placed.radius, glm::length(p - placed.center));
@@ -99,12 +98,10 @@ private:
         if (!front && !material.double_sided) return;
         const double t = glm::dot(plane, a) / glm::dot(plane, way);
         if (!(t > 0)) return;
-        const glm::dvec3 normal = glm::normalize((p.normals[index[0]] * wa + p.normals[index[1]] * wb +
-                                                  p.normals[index[2]] * wc) / sum);
-        out.push_back({.instance = instance,
-                       .material = &material,
-                       .position = way * t,
-                       .normal = front ? normal : -normal});
+        const glm::dvec3 normal =
+            glm::normalize((p.normals[index[0]] * wa + p.normals[index[1]] * wb + p.normals[index[2]] * wc) / sum);
+        out.push_back(
+            {.instance = instance, .material = &material, .position = way * t, .normal = front ? normal : -normal});
     }
 
     const Scene& scene_;

@@ -60,8 +60,9 @@ inline void add_object(Scene& scene, Mesh mesh, Material material) {
         mesh.material = i;
         scene.meshes.push_back(std::move(mesh));
         const float t = static_cast<float>(i) / 9.0f;
-        scene.materials.push_back(
-            {.base_color = {0.05f + 0.9f * t, 0.6f - 0.5f * t, 0.37f, 1}, .metallic = t, .roughness = 0.04f + 0.95f * t});
+        scene.materials.push_back({.base_color = {0.05f + 0.9f * t, 0.6f - 0.5f * t, 0.37f, 1},
+                                   .metallic = t,
+                                   .roughness = 0.04f + 0.95f * t});
     }
     for (std::uint32_t i = 0; i < 100; ++i) {
         Instance instance{.mesh = i % 10};

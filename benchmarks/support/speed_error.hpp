@@ -84,8 +84,8 @@ inline void write(JsonWriter& json, const SpeedErrorTable& table) {
 
 [[nodiscard]] inline std::string to_markdown(const SpeedErrorTable& table) {
     const std::vector<std::string> further = further_columns(table);
-    std::vector<std::string> header = {"scene", "method", "ms, median [quartiles]", "x " + table.baseline,
-                                       "RMSE",  "p99.9",  "max",                    "MiB"};
+    std::vector<std::string> header = {
+        "scene", "method", "ms, median [quartiles]", "x " + table.baseline, "RMSE", "p99.9", "max", "MiB"};
     header.insert(header.end(), further.begin(), further.end());
     MarkdownTable out(header);
     for (const SpeedErrorRow& row : table.rows) {
@@ -106,7 +106,8 @@ inline void write(JsonWriter& json, const SpeedErrorTable& table) {
     }
     std::string text = "### " + table.stem + ", " + std::to_string(table.size.width) + " x " +
                        std::to_string(table.size.height) + ", " + table.device.backend + " on " + table.device.name +
-                       " (" + table.device.driver + ")\n\n" + markdown(table.machine) + "- error: " + table.error + "\n";
+                       " (" + table.device.driver + ")\n\n" + markdown(table.machine) + "- error: " + table.error +
+                       "\n";
     for (const std::string& note : table.notes) text += "- " + note + "\n";
     return text + "\n" + out.text();
 }

@@ -9,10 +9,10 @@
 #include <pellucid/scene/gltf.hpp>
 #include <pellucid/scene/image_file.hpp>
 #if defined(PELLUCID_HAS_VULKAN)
-#include <pellucid/vulkan/vulkan.hpp>
+#include <pellucid/vulkan/passes.hpp>
 #endif
 #if defined(PELLUCID_HAS_OPENGL)
-#include <pellucid/opengl/opengl.hpp>
+#include <pellucid/opengl/passes.hpp>
 #endif
 
 namespace pellucid {

@@ -6,7 +6,11 @@
 
 #define BENCH_LIGHTING_OUTPUT 0       // storage image, rgba16f
 #define BENCH_LIGHTING_PARAMETERS 12  // uniform block
+#define BENCH_LIGHTING_LIGHTS 13      // storage block: the same lights
 #define BENCH_LIGHTING_MAX_LIGHTS 256
+
+#define BENCH_LIGHTING_PLAIN 0u     // term by term, as the lighting pass
+#define BENCH_LIGHTING_FACTORED 1u  // what does not change from light to light is taken out of the loop
 
 PELLUCID_GPU_BEGIN
 struct RawLight {

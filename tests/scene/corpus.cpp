@@ -93,6 +93,8 @@ constexpr Untidy untidy[] = {
     {"BUFFER_VIEW_TARGET_OVERRIDE", ""},
     {"BUFFER_VIEW_INVALID_BYTE_STRIDE", "invalid_stride_wrong_target"},
     {"IMAGE_BUFFER_VIEW_WITH_BYTESTRIDE", ""},
+    // Data that no mesh uses is not looked at.
+    {"ACCESSOR_INVALID_FLOAT", "accessor_data/invalid_elements_float"},
     // A chunk or a buffer that nothing uses.
     {"GLB_UNEXPECTED_BIN_CHUNK", ""},
     {"BUFFER_MISSING_GLB_DATA", ""},

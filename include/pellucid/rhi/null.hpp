@@ -107,12 +107,12 @@ private:
 /// Models `DeviceOf<Device, Commands>`.  Work is done when it is submitted; queries and readback memory hold zeros.
 class Device {
 public:
-    /// The limits are those that Vulkan 1.3 and OpenGL 4.5 devices have at least, or commonly.
     Device() {
         info_.backend = info_.name = info_.driver = info_.api = "null";
         info_.max_texture_size = 16384;
         info_.max_array_layers = 2048;
-        info_.max_storage_buffer_bytes = 1u << 27u;
+        info_.max_storage_buffer_bytes = std::uint64_t{1} << 31;
+        info_.timestamp_ns = 1;
     }
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;

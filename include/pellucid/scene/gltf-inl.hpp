@@ -108,8 +108,21 @@ inline void gltf_check_objects(const GltfValue& root) {
 }
 
 /// The descriptive tables through tinygltf.  Given no buffers, images or meshes, it touches no file and no memory but
-/// that of the tables.
-inline tinygltf::Model gltf_describe(const Json& root) {
+/// that of the tables, which is paid for first: an empty object in the file is three bytes, as a material a thousand.
+inline tinygltf::Model gltf_describe(const Json& root, GltfBudget& budget) {
+    const auto size = [&](const char* key) {
+        const auto found = root.find(key);
+        return found == root.end() ? std::size_t{0} : found->size();
+    };
+    const auto pay = [&](const char* key, std::size_t bytes) {
+        budget.take(size(key) * bytes, "/" + std::string(key), "tables");
+    };
+    pay("scenes", sizeof(tinygltf::Scene));
+    pay("nodes", sizeof(tinygltf::Node));
+    pay("materials", sizeof(tinygltf::Material) + sizeof(Material));
+    pay("textures", sizeof(tinygltf::Texture));
+    pay("samplers", sizeof(tinygltf::Sampler));
+    pay("cameras", sizeof(tinygltf::Camera));
     Json tables = Json::object();
     for (const char* key :
          {"asset", "scene", "scenes", "nodes", "materials", "textures", "samplers", "cameras", "extensions"})
@@ -124,10 +137,6 @@ inline tinygltf::Model gltf_describe(const Json& root) {
             if (static_cast<unsigned char>(c) < 0x20) c = ' ';
         gltf_fail("/: tinygltf cannot read the document: " + error);
     }
-    const auto size = [&](const char* key) {
-        const auto found = root.find(key);
-        return found == root.end() ? 0 : found->size();
-    };
     if (model.nodes.size() != size("nodes") || model.materials.size() != size("materials") ||
         model.textures.size() != size("textures") || model.samplers.size() != size("samplers") ||
         model.cameras.size() != size("cameras") || model.scenes.size() != size("scenes"))
@@ -158,7 +167,8 @@ inline std::vector<std::vector<std::uint32_t>> gltf_read_meshes(const GltfValue&
 
 inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
     std::vector<std::byte> bytes = gltf_value(read_file(path, limits.max_file_bytes));
-    const std::uint64_t file_bytes = bytes.size();
+    GltfBudget files{.limit = limits.max_file_bytes, .used = bytes.size()};
+    const std::uint64_t own_bytes = bytes.size();
     const GltfContainer container = gltf_open(bytes);
     Json document = gltf_parse_json(container.json, limits);
     if (!container.binary) bytes = {};
@@ -172,8 +182,10 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
         if (root.has(key)) scene.warnings.push_back("/" + std::string(key) + ": are left out: the rest pose is shown");
 
     const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-    const GltfData data(root, container, folder, limits);
-    const tinygltf::Model model = gltf_describe(document);
+    const GltfData data(root, container, folder, files);
+    const std::uint64_t grown = (own_bytes + data.loaded_bytes()) * limits.max_growth;
+    GltfBudget budget{.limit = std::min(limits.max_scene_bytes, (std::uint64_t{16} << 20u) + grown)};
+    const tinygltf::Model model = gltf_describe(document, budget);
     GltfLooks looks(model, scene);
     looks.read_materials(root);
 
@@ -181,12 +193,12 @@ inline Scene gltf_load(const std::string& path, const GltfLimits& limits) {
     for (const char* key : {"extensionsUsed", "extensionsRequired"})
         for (const Json& name : root.has(key) ? root[key].json() : Json::array())
             quantization = quantization || name == "KHR_mesh_quantization";
-    GltfGeometry geometry(data, scene, limits, file_bytes + data.loaded_bytes(), quantization);
+    GltfGeometry geometry(data, scene, budget, quantization);
     const auto primitives = gltf_read_meshes(root, geometry, scene);
-    GltfNodes nodes(model, scene, primitives, limits);
+    GltfNodes nodes(model, scene, primitives, limits.max_node_depth, budget);
     nodes.check();
     nodes.place();
-    looks.read_images(root, data, folder, limits);
+    looks.read_images(root, data, folder, limits, files);
     return scene;
 }
 

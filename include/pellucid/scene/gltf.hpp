@@ -25,14 +25,14 @@ namespace pellucid {
 
 /// What a file may ask for.  A file beyond a limit is refused before the memory is taken.
 struct GltfLimits {
-    std::uint64_t max_file_bytes = std::uint64_t{2} << 30u;      ///< [B] of each file that is read
-    std::uint64_t max_json_bytes = std::uint64_t{128} << 20u;    ///< [B] of JSON, embedded base64 data included
-    std::uint32_t max_json_depth = 64;                           ///< arrays and objects inside each other
-    std::uint64_t max_geometry_bytes = std::uint64_t{4} << 30u;  ///< [B] of all meshes made
-    /// Meshes made may not be larger than this many times the bytes they come from, plus 16 MiB: primitives that share
-    /// an accessor each get their own copy of what they use of it.
-    std::uint32_t max_geometry_growth = 128;
-    std::uint64_t max_all_image_bytes = std::uint64_t{8} << 30u;  ///< [B] of all pictures decoded
+    std::uint64_t max_file_bytes = std::uint64_t{2} << 30u;    ///< [B] of all files read, the document included
+    std::uint64_t max_json_bytes = std::uint64_t{128} << 20u;  ///< [B] of JSON, embedded base64 data included
+    std::uint32_t max_json_depth = 64;                         ///< arrays and objects inside each other
+    std::uint64_t max_scene_bytes = std::uint64_t{4} << 30u;   ///< [B] of what is made from them, pictures apart
+    /// The same may not be larger than this many times the bytes it comes from, plus 16 MiB: primitives that share an
+    /// accessor each get their own copy of what they use of it, and an empty object of three bytes still is a material.
+    std::uint32_t max_growth = 128;
+    std::uint64_t max_all_image_bytes = std::uint64_t{4} << 30u;  ///< [B] of all pictures decoded
     std::uint32_t max_node_depth = 1024;
     ImageLimits image;  ///< for each picture
 };

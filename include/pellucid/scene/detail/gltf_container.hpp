@@ -10,6 +10,21 @@
 
 namespace pellucid::detail {
 
+/// What a file may still take of something: what it asks for twice it pays for twice, so that work and memory stay in
+/// proportion to the file whatever refers to what.
+struct GltfBudget {
+    std::uint64_t limit = 0;  ///< [B]
+    std::uint64_t used = 0;   ///< [B]
+
+    /// Ends the loading where `bytes` more are too much; `place` and `what` say of what.
+    void take(std::uint64_t bytes, const std::string& place, const char* what) {
+        if (bytes > limit - used)
+            gltf_fail(place + ": " + what + " so far take " + std::to_string(used + bytes) +
+                      " bytes, the limit for this file is " + std::to_string(limit));
+        used += bytes;
+    }
+};
+
 struct GltfContainer {
     std::string_view json;                          ///< into `bytes`
     std::optional<std::span<const std::byte>> bin;  ///< into `bytes`; nothing where there is no such chunk
@@ -63,24 +78,15 @@ inline GltfContainer gltf_open(std::span<const std::byte> bytes) {
     return container;
 }
 
-/// Parses the JSON without its "extras", which nothing here reads.
+/// Parses the JSON.  Without a parser callback: with one, nlohmann::json takes quadratic time for long arrays of objects.
 inline Json gltf_parse_json(std::string_view text, const GltfLimits& limits) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") gltf_fail("byte 0: the JSON starts with a byte order mark");
     if (text.size() > limits.max_json_bytes)
         gltf_fail("the JSON has " + std::to_string(text.size()) + " bytes, the limit is " +
                   std::to_string(limits.max_json_bytes));
     gltf_check_depth(text, limits.max_json_depth);
-    bool skip = false;
-    const auto keep = [&](int, Json::parse_event_t event, Json& parsed) {
-        if (event == Json::parse_event_t::key) skip = parsed == "extras";
-        if (event == Json::parse_event_t::value && std::exchange(skip, false)) return false;
-        if ((event == Json::parse_event_t::object_start || event == Json::parse_event_t::array_start) &&
-            std::exchange(skip, false))
-            return false;
-        return true;
-    };
     try {
-        return Json::parse(text, keep);
+        return Json::parse(text);
     } catch (const Json::exception& exception) {
         // "[json.exception.kind.number] parse error at line 1, column 2: …"; it quotes what it has read last.
         std::string_view why = exception.what();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <map>
 
 namespace pellucid::detail {
 
@@ -48,11 +49,10 @@ struct GltfAccessor {
 class GltfData {
 public:
     GltfData(const GltfValue& root, const GltfContainer& container, const std::filesystem::path& folder,
-             const GltfLimits& limits) {
-        if (root.has("buffers")) read_buffers(root["buffers"], container, folder, limits);
+             GltfBudget& files) {
+        if (root.has("buffers")) read_buffers(root["buffers"], container, folder, files);
         if (root.has("bufferViews")) read_views(root["bufferViews"]);
         if (root.has("accessors")) read_accessors(root["accessors"]);
-        for (const GltfAccessor& accessor : accessors_) check_finite(accessor);
     }
 
     [[nodiscard]] const std::vector<GltfAccessor>& accessors() const noexcept { return accessors_; }
@@ -78,45 +78,48 @@ private:
     };
 
     void read_buffers(const GltfValue& list, const GltfContainer& container, const std::filesystem::path& folder,
-                      const GltfLimits& limits) {
+                      GltfBudget& files) {
         buffers_.resize(list.size());
+        std::map<std::string, std::size_t> known;  // addresses that several buffers share are read once
         for (std::size_t i = 0; i < list.size(); ++i) {
             const GltfValue value = list[i];
             Buffer& buffer = buffers_[i];
             buffer.length = value.integer("byteLength");
             if (value.has("uri")) {
                 auto& uri = value["uri"].json().get_ref<std::string&>();
-                buffer.owned = read_uri(value["uri"], uri, folder, limits.max_file_bytes);
-                buffer.bytes = buffer.owned;
+                const auto [first, fresh] = known.try_emplace(is_data_uri(uri) ? std::to_string(i) : "/" + uri, i);
+                if (fresh) buffer.owned = read_uri(value["uri"], uri, folder, files);
+                buffer.bytes = buffers_[first->second].owned;
+                if (fresh) loaded_ += buffer.bytes.size();
                 uri = std::string();  // base64 text is large and has been decoded
                 buffer.present = true;
             } else if (i == 0 && container.bin) {
                 buffer.bytes = *container.bin;
+                loaded_ += buffer.bytes.size();
                 buffer.present = true;
             }
             if (buffer.present && buffer.bytes.size() < buffer.length)
                 value.fail("byteLength is " + std::to_string(buffer.length) + ", its data has " +
                            std::to_string(buffer.bytes.size()) + " bytes");
-            loaded_ += buffer.bytes.size();
         }
     }
 
 public:
     /// The content that an address names: a data URI or a file beside the document.
     static std::vector<std::byte> read_uri(const GltfValue& place, const std::string& uri,
-                                           const std::filesystem::path& folder, std::uint64_t limit) {
+                                           const std::filesystem::path& folder, GltfBudget& files) {
         if (is_data_uri(uri)) {
             auto bytes = decode_data_uri(uri);
             if (!bytes) place.fail("is a data URI whose base64 or percent encoding is broken");
             return std::move(*bytes);
         }
         const auto path = resolve_uri(uri, folder);
-        if (!path) {
-            std::string shown = gltf_printable(uri);
-            place.fail("is \"" + shown + "\", which is no relative path; copy the file beside the document");
-        }
-        auto bytes = read_file(*path, limit);
+        if (!path)
+            place.fail("is \"" + gltf_printable(uri) +
+                       "\", which is no relative path; copy the file beside the document");
+        auto bytes = read_file(*path, files.limit - files.used);
         if (!bytes) gltf_fail(place.pointer() + ": " + bytes.error().message, bytes.error().code);
+        files.take(bytes->size(), place.pointer(), "the files");
         return std::move(*bytes);
     }
 
@@ -202,29 +205,6 @@ private:
         accessor.sparse_value_offset = values.integer("byteOffset");
         check_range(values, accessor.sparse_value_view, accessor.sparse_value_offset, accessor.sparse_count,
                     accessor.element_size, accessor.last_size, gltf_size(accessor.component), false);
-    }
-
-    /// No float of the file is infinite or NaN, whatever it is for.
-    void check_finite(const GltfAccessor& accessor) const {
-        if (accessor.component != GltfComponent::f32) return;
-        const auto check = [&](std::size_t index, std::uint64_t offset, std::uint64_t count, bool strided) {
-            const GltfBufferView& view = views_[index];
-            if (!buffers_[view.buffer].present) return;
-            const std::uint64_t stride = strided && view.stride != 0 ? view.stride : accessor.element_size;
-            const std::byte* base = buffers_[view.buffer].bytes.data() + view.offset + offset;
-            for (std::uint64_t i = 0; i < count; ++i)
-                for (std::uint32_t c = 0; c < accessor.width; ++c) {
-                    float number;
-                    std::memcpy(&number, base + i * stride + std::size_t{c} * sizeof number, sizeof number);
-                    if (!std::isfinite(number))
-                        gltf_fail(accessor.pointer + ": component " + std::to_string(c) + " of " +
-                                  (strided ? "element " : "sparse value ") + std::to_string(i) + " is " +
-                                  std::to_string(number) + ", must be finite");
-                }
-        };
-        if (accessor.view != GltfAccessor::npos) check(accessor.view, accessor.offset, accessor.count, true);
-        if (accessor.sparse_count != 0)
-            check(accessor.sparse_value_view, accessor.sparse_value_offset, accessor.sparse_count, false);
     }
 
     static GltfComponent component(const GltfValue& value) {

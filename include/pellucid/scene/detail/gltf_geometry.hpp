@@ -39,12 +39,8 @@ inline constexpr GltfAttributeRule gltf_attribute_rules[] = {
 /// Makes meshes and keeps account of what they take.
 class GltfGeometry {
 public:
-    GltfGeometry(const GltfData& data, Scene& scene, const GltfLimits& limits, std::uint64_t source_bytes,
-                 bool quantization)
-        : data_(data), scene_(scene), quantization_(quantization) {
-        budget_ =
-            std::min(limits.max_geometry_bytes, (std::uint64_t{16} << 20u) + source_bytes * limits.max_geometry_growth);
-    }
+    GltfGeometry(const GltfData& data, Scene& scene, GltfBudget& budget, bool quantization)
+        : data_(data), scene_(scene), budget_(budget), quantization_(quantization) {}
 
     /// Appends the primitive to the scene's meshes; false, with a warning, where it has nothing that can be drawn.
     /// `material` is valid.
@@ -78,7 +74,8 @@ public:
             sources = compact(corners, positions.count);
             mesh.indices = std::move(corners);
         }
-        charge(primitive, sources.size() * std::uint64_t{72} + mesh.indices.size() * std::uint64_t{4});
+        budget_.take(sizeof(Mesh) + sources.size() * std::uint64_t{72} + mesh.indices.size() * std::uint64_t{4},
+                     primitive.pointer(), "the meshes");
 
         read(attributes, "POSITION", sources, mesh.positions);
         if (flat)
@@ -99,7 +96,7 @@ public:
             if (attributes.has("TANGENT") && !flat)
                 read_tangents(attributes, sources, mesh);
             else
-                derive_tangents(primitive, look.normal_texture, mesh);
+                derive_tangents(look.normal_texture, mesh);
         }
         check_texture_coordinates(primitive, look, mesh);
         scene_.meshes.push_back(std::move(mesh));
@@ -110,12 +107,6 @@ private:
     bool warn(const GltfValue& place, const std::string& what) {
         if (scene_.warnings.size() < 1000) scene_.warnings.push_back(place.pointer() + ": " + what);
         return false;
-    }
-    void charge(const GltfValue& place, std::uint64_t bytes) {
-        used_ += bytes;
-        if (used_ > budget_)
-            place.fail("the meshes up to here take " + std::to_string(used_) + " bytes, the limit for this file is " +
-                       std::to_string(budget_));
     }
     [[nodiscard]] const GltfAccessor& accessor(const GltfValue& attributes, const char* name) const {
         return data_.accessors()[attributes.integer(name)];
@@ -150,7 +141,7 @@ private:
     /// The triangle list's corners: elements of the attributes, three a triangle.
     std::vector<std::uint32_t> read_corners(const GltfValue& primitive, std::uint64_t vertices, std::uint64_t mode) {
         const bool indexed = primitive.has("indices");
-        std::optional<GltfReader> reader;
+        std::optional<GltfReader> index_reader;
         std::uint32_t restart = 0xFFFFFFFFu;  // the largest value of the indices' type: graphics APIs restart there
         if (indexed) {
             const GltfAccessor& found = data_.accessors()[primitive.integer("indices")];
@@ -164,25 +155,25 @@ private:
                 data_.view(found.view).stride != found.element_size)
                 primitive["indices"].fail("the accessor has a byteStride of " +
                                           std::to_string(data_.view(found.view).stride) + ", indices have none");
-            reader.emplace(data_, found);
+            index_reader.emplace(reader(found));
             restart >>= 32 - 8 * gltf_size(found.component);
         }
-        const std::uint64_t count = reader ? reader->size() : vertices;
+        const std::uint64_t count = index_reader ? index_reader->size() : vertices;
         if (vertices > 0xFFFFFFFFu || count > 0xFFFFFFFFu)
             primitive.fail("has " + std::to_string(std::max(vertices, count)) + " vertices, the limit is 4294967295");
         const std::uint64_t triangles = mode == 4 ? count / 3 : count < 3 ? 0 : count - 2;
         if (mode == 4 && count % 3 != 0)
             warn(primitive, std::to_string(count) + " indices are no multiple of 3: the rest is left out");
         // Checked before the list is made: an accessor without a view has any count it likes.
-        if (used_ + triangles * 12 > budget_)
+        if (triangles * 12 > budget_.limit - budget_.used)
             primitive.fail("has " + std::to_string(triangles) + " triangles, which takes more than the limit of " +
-                           std::to_string(budget_) + " bytes for this file");
+                           std::to_string(budget_.limit) + " bytes for this file");
         const auto corner = [&](std::uint64_t i) {
-            const std::uint32_t index = reader ? reader->index(i) : static_cast<std::uint32_t>(i);
-            if (index >= vertices || (reader && index == restart))
+            const std::uint32_t index = index_reader ? index_reader->index(i) : static_cast<std::uint32_t>(i);
+            if (index >= vertices || (index_reader && index == restart))
                 primitive["indices"].fail(
                     "index " + std::to_string(i) + " is " + std::to_string(index) +
-                    (reader && index == restart ? ", the value that restarts primitives; the" : ", the") +
+                    (index_reader && index == restart ? ", the value that restarts primitives; the" : ", the") +
                     " primitive has " + std::to_string(vertices) + " vertices");
             return index;
         };
@@ -223,14 +214,28 @@ private:
         return sources;
     }
 
-    /// Reads an attribute's used elements; `GltfData` has seen that they are finite.
+    /// A reader of an accessor; its sparse part is paid for, since it is looked through each time.
+    [[nodiscard]] GltfReader reader(const GltfAccessor& accessor) const {
+        budget_.take(accessor.sparse_count * 4, accessor.pointer, "the meshes");
+        return GltfReader(data_, accessor);
+    }
+
+    /// Reads an attribute's used elements; every component must be finite.
     template <class T>
     void read(const GltfValue& attributes, const char* name, const std::vector<std::uint32_t>& sources,
               std::vector<T>& values, std::uint32_t width = static_cast<std::uint32_t>(T::length())) const {
-        const GltfReader reader(data_, accessor(attributes, name));
+        const GltfAccessor& source = accessor(attributes, name);
+        const GltfReader elements = reader(source);
         values.resize(sources.size());
         for (std::size_t v = 0; v < sources.size(); ++v)
-            for (std::uint32_t c = 0; c < width; ++c) values[v][static_cast<int>(c)] = reader.number(sources[v], c);
+            for (std::uint32_t c = 0; c < width; ++c) {
+                const float number = elements.number(sources[v], c);
+                if (!std::isfinite(number))
+                    gltf_fail(source.pointer + ": component " + std::to_string(c) + " of element " +
+                              std::to_string(sources[v]) + " is " + std::to_string(number) + ", " + name +
+                              " must be finite");
+                values[v][static_cast<int>(c)] = number;
+            }
     }
 
     /// Lengths differ from 1 by quantisation and carelessness, by rounding too: that is left alone, so that what was
@@ -270,11 +275,10 @@ private:
             for (int c = 0; c < 4; ++c) color[c] = std::clamp(color[c], 0.0f, 1.0f);
         }
     }
-    void derive_tangents(const GltfValue& primitive, const TextureRef& use, Mesh& mesh) {
+    static void derive_tangents(const TextureRef& use, Mesh& mesh) {
         const std::vector<glm::vec2> uv = use.uv_set == 1 ? mesh.uv1 : mesh.uv0;
         if (!uv.empty()) {
             make_tangents(mesh, uv);
-            charge(primitive, 0);
             return;
         }
         mesh.tangents.resize(mesh.positions.size());
@@ -293,9 +297,9 @@ private:
 
     const GltfData& data_;
     Scene& scene_;
+    GltfBudget& budget_;
     bool quantization_;
     bool warned_morph_ = false;
-    std::uint64_t budget_ = 0, used_ = 0;
 };
 
 }  // namespace pellucid::detail

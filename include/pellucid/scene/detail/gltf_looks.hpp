@@ -6,6 +6,7 @@
 #include <pellucid/scene/detail/tiny_gltf.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <algorithm>
+#include <map>
 
 namespace pellucid::detail {
 
@@ -22,7 +23,7 @@ public:
     }
 
     void read_images(const GltfValue& root, const GltfData& data, const std::filesystem::path& folder,
-                     const GltfLimits& limits) {
+                     const GltfLimits& limits, GltfBudget& files) {
         std::uint64_t total = 0;
         scene_.images.resize(sources_.size());
         for (std::size_t i = 0; i < sources_.size(); ++i) {
@@ -33,7 +34,7 @@ public:
             std::span<const std::byte> bytes;
             if (value.has("uri")) {
                 auto& uri = value["uri"].json().get_ref<std::string&>();
-                owned = GltfData::read_uri(value["uri"], uri, folder, limits.max_file_bytes);
+                owned = GltfData::read_uri(value["uri"], uri, folder, files);
                 if (image.name.empty() && !is_data_uri(uri)) image.name = uri;
                 bytes = owned;
             } else {
@@ -61,9 +62,9 @@ private:
         }
         SceneTexture texture;
         const auto image = static_cast<std::size_t>(source.source);
-        const auto found = std::find(sources_.begin(), sources_.end(), image);
-        texture.image = static_cast<std::uint32_t>(found - sources_.begin());
-        if (found == sources_.end()) sources_.push_back(image);
+        const auto [found, fresh] = number_of_.try_emplace(image, static_cast<std::uint32_t>(sources_.size()));
+        texture.image = found->second;
+        if (fresh) sources_.push_back(image);
         if (source.sampler >= 0) texture.sampler = sampler(static_cast<std::size_t>(source.sampler));
         texture_of_[i] = static_cast<std::uint32_t>(scene_.textures.size());
         scene_.textures.push_back(texture);
@@ -192,7 +193,8 @@ private:
     const tinygltf::Model& model_;
     Scene& scene_;
     std::vector<std::uint32_t> texture_of_;
-    std::vector<std::size_t> sources_;  ///< the file's images, in order of use: index = Scene::images
+    std::map<std::size_t, std::uint32_t> number_of_;  ///< the file's image -> Scene::images
+    std::vector<std::size_t> sources_;                ///< the file's images, in order of use: index = Scene::images
 };
 
 }  // namespace pellucid::detail

@@ -2,13 +2,13 @@
 #pragma once
 /// \file
 /// From tinygltf's nodes, cameras and lights to instances, cameras and lights in the world.
-#include <pellucid/scene/detail/gltf_json.hpp>
+#include <pellucid/scene/detail/gltf_container.hpp>
 #include <pellucid/scene/detail/tiny_gltf.hpp>
-#include <pellucid/scene/gltf.hpp>
+#include <pellucid/scene/scene.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
-#include <glm/gtc/quaternion.hpp>
 #include <cmath>
 
 namespace pellucid::detail {
@@ -17,8 +17,8 @@ class GltfNodes {
 public:
     /// `primitives[m]` are the meshes of the scene that the file's mesh m became.
     GltfNodes(const tinygltf::Model& model, Scene& scene, const std::vector<std::vector<std::uint32_t>>& primitives,
-              const GltfLimits& limits)
-        : model_(model), scene_(scene), primitives_(primitives), limits_(limits) {}
+              std::uint32_t max_depth, GltfBudget& budget)
+        : model_(model), scene_(scene), primitives_(primitives), max_depth_(max_depth), budget_(budget) {}
 
     /// Checks that the nodes are trees: no node has two parents, none is its own ancestor, the depth is limited, and
     /// that every node's matrix, every camera and every light is valid, also those that no scene shows.
@@ -42,9 +42,9 @@ public:
         for (std::size_t i = 0; i < order.size(); ++i)
             for (const int child : model_.nodes[order[i]].children) {
                 depth_[std::size_t(child)] = depth_[order[i]] + 1;
-                if (depth_[std::size_t(child)] > limits_.max_node_depth)
+                if (depth_[std::size_t(child)] > max_depth_)
                     gltf_fail(pointer(std::size_t(child)) + ": is " + std::to_string(depth_[std::size_t(child)]) +
-                              " nodes below its root, the limit is " + std::to_string(limits_.max_node_depth));
+                              " nodes below its root, the limit is " + std::to_string(max_depth_));
                 order.push_back(std::size_t(child));
             }
         if (order.size() != count)
@@ -54,7 +54,8 @@ public:
         for (std::size_t n = 0; n < count; ++n) static_cast<void>(local(n));
         for (std::size_t i = 0; i < model_.cameras.size(); ++i) static_cast<void>(camera(i));
         for (std::size_t i = 0; i < model_.lights.size(); ++i) static_cast<void>(light(i));
-        for (std::size_t s = 0; s < model_.scenes.size(); ++s) check_scene(s);
+        std::vector<std::size_t> seen_in(count, model_.scenes.size());
+        for (std::size_t s = 0; s < model_.scenes.size(); ++s) check_scene(s, seen_in);
     }
 
     /// Places what the default scene shows: the file's "scene", else its first one, else every root node.
@@ -91,16 +92,16 @@ public:
 private:
     static std::string pointer(std::size_t node) { return "/nodes/" + std::to_string(node); }
 
-    void check_scene(std::size_t s) const {
-        std::vector<bool> seen(model_.nodes.size(), false);
+    /// `seen_in[n]`: the last scene that listed node n.
+    void check_scene(std::size_t s, std::vector<std::size_t>& seen_in) const {
         for (std::size_t i = 0; i < model_.scenes[s].nodes.size(); ++i) {
             const auto node = std::size_t(model_.scenes[s].nodes[i]);
             const std::string place = "/scenes/" + std::to_string(s) + "/nodes/" + std::to_string(i);
             if (parent_[node] >= 0)
                 gltf_fail(place + ": node " + std::to_string(node) + " is no root, it is a child of node " +
                           std::to_string(parent_[node]));
-            if (seen[node]) gltf_fail(place + ": node " + std::to_string(node) + " is listed twice");
-            seen[node] = true;
+            if (seen_in[node] == s) gltf_fail(place + ": node " + std::to_string(node) + " is listed twice");
+            seen_in[node] = s;
         }
     }
 
@@ -132,9 +133,11 @@ private:
 
     void place_node(std::size_t n, const glm::dmat4& world) {
         const tinygltf::Node& node = model_.nodes[n];
-        if (node.mesh >= 0)
-            for (const std::uint32_t mesh : primitives_[std::size_t(node.mesh)])
-                scene_.instances.push_back({mesh, world});
+        if (node.mesh >= 0) {
+            const auto& meshes = primitives_[std::size_t(node.mesh)];
+            budget_.take(meshes.size() * sizeof(Instance), pointer(n), "meshes and instances");
+            for (const std::uint32_t mesh : meshes) scene_.instances.push_back({mesh, world});
+        }
         if (node.camera >= 0) {
             Camera placed = camera(std::size_t(node.camera));
             if (placed.name.empty()) placed.name = node.name;
@@ -230,7 +233,8 @@ private:
     const tinygltf::Model& model_;
     Scene& scene_;
     const std::vector<std::vector<std::uint32_t>>& primitives_;
-    const GltfLimits& limits_;
+    std::uint32_t max_depth_;
+    GltfBudget& budget_;
     std::vector<int> parent_;
     std::vector<std::uint32_t> depth_;
 };

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Every pass and the renderer, instantiated whole for the null backend: what compiles here uses the concepts and
+// nothing else.  Then they run on it, inside Validated, and fail at each creation in turn.
+#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/passes/gbuffer.hpp>
+#include <pellucid/passes/lighting.hpp>
+#include <pellucid/passes/sorted_forward.hpp>
+#include <pellucid/passes/tonemap.hpp>
+#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/rhi/null.hpp>
+#include <pellucid/rhi/validated.hpp>
+#include <pellucid/scene/demo_scene.hpp>
+#include <pellucid/scene/framing.hpp>
+#include <string>
+#include "support/catch.hpp"
+#include "support/devices.hpp"
+
+template class pellucid::GBufferPass<pellucid::Null>;
+template class pellucid::LightingPass<pellucid::Null>;
+template class pellucid::SortedForwardPass<pellucid::Null>;
+template class pellucid::TonemapPass<pellucid::Null>;
+template class pellucid::Renderer<pellucid::Null>;
+
+using namespace pellucid;
+
+TEST_CASE("frames of the demo scene keep every rule of the RHI", "[cpu]") {
+    test::Log log;  // a violation fails the test
+    const Scene scene = make_demo_scene();
+    for (const auto transparency : {Transparency::none, Transparency::sorted}) {
+        auto device = test::must(Validated<Null>::create(log.desc()));
+        {
+            auto renderer = test::must(
+                Renderer<Validated<Null>>::create(*device, scene, {.size = {64, 36}, .transparency = transparency}));
+            for (int frame = 0; frame < 3; ++frame) test::must(renderer->render(scene.cameras.front()));
+            (void)test::must(renderer->read_display());
+        }
+        CHECK(device->violations() == 0);
+        CHECK(device->live_objects() == 0);
+    }
+}
+
+TEST_CASE("wherever memory runs out, the renderer says so and leaves nothing behind", "[cpu]") {
+    const Scene scene = make_demo_scene();
+    int failures = 0;
+    for (std::uint64_t n = 1; n < 1000; ++n) {
+        auto device = test::must(Null::create({}));
+        device->fail_after(n);
+        bool failed = false;
+        {
+            auto renderer = Renderer<Null>::create(*device, scene, {.size = {64, 36}});
+            if (!renderer) {
+                CHECK(renderer.error().code == Errc::out_of_memory);
+                CHECK_FALSE(renderer.error().message.empty());
+                failed = true;
+            } else if (const auto drawn = (*renderer)->render(scene.cameras.front()); !drawn) {
+                CHECK(drawn.error().code == Errc::out_of_memory);
+                failed = true;
+            }
+        }
+        INFO("creation " << n << " failed");
+        REQUIRE(device->live_objects() == 0);
+        if (!failed) break;
+        ++failures;
+    }
+    CHECK(failures > 10);
+    CHECK(failures < 900);
+}
+
+TEST_CASE("a lost device is a result", "[cpu]") {
+    const Scene scene = make_demo_scene();
+    auto device = test::must(Null::create({}));
+    {
+        auto renderer = test::must(Renderer<Null>::create(*device, scene, {.size = {64, 36}}));
+        test::must(renderer->render(scene.cameras.front()));
+        device->lose();
+        const auto drawn = renderer->render(scene.cameras.front());
+        REQUIRE_FALSE(drawn);
+        CHECK(drawn.error().code == Errc::device_lost);
+    }
+    CHECK(device->live_objects() == 0);
+}
