@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the G-buffer pass stores: coverage, facing, order, normals, and every packed value.
 #include <glm/gtc/matrix_transform.hpp>
-#include <set>
 #include "reference/sampling.hpp"
 #include "support/scene.hpp"
 

@@ -2,7 +2,6 @@
 // Deferred lighting against the double reference, for the surface that the G-buffer really holds; every variant of the
 // pass; and the same bits on both backends where they are promised.
 #include <cstring>
-#include <glm/gtc/matrix_transform.hpp>
 #include "support/scene.hpp"
 #include "support/srgb_table.hpp"
 

@@ -42,7 +42,7 @@ TEST_CASE("every creation that can fail: the error comes out and every object is
             REQUIRE_FALSE(made.error().message.empty());
             REQUIRE(device.live_objects() == 0);
         }
-        CHECK(n > 30);
+        CHECK(n > 20);
         CHECK(n < 200);
     }
 }

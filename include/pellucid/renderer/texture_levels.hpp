@@ -2,10 +2,10 @@
 #pragma once
 /// \file
 /// A picture → the levels of one layer of a texture array.
-#include <pellucid/core/image.hpp>
-#include <pellucid/scene/mipmap.hpp>
 #include <algorithm>
 #include <cmath>
+#include <pellucid/core/image.hpp>
+#include <pellucid/scene/mipmap.hpp>
 #include <utility>
 #include <vector>
 
@@ -48,7 +48,7 @@ namespace pellucid {
 /// Level 0 at `size`, and the levels below it where the sampler wants them.
 [[nodiscard]] inline std::vector<Image8> texture_levels(const Image8& image, Extent2D size, bool srgb, bool mipmapped) {
     Image8 level = resized(image, size, srgb);
-    if (mipmapped) return make_mipmaps(level, srgb ? MipContent::color : MipContent::data);
+    if (mipmapped) return make_mipmaps(level, srgb ? MipContent::color_with_alpha : MipContent::data);
     std::vector<Image8> levels;
     levels.push_back(std::move(level));
     return levels;

@@ -34,22 +34,25 @@ struct TexturePlan {
 
 /// Plans at most `max_arrays` (>= 2) arrays of at most `max_layers` layers.  Where a scene has more kinds (size × encoding ×
 /// sampler) than that, kinds are merged, most alike first, and each merge is a warning: pictures are then enlarged to
-/// the larger size of the two, or lose their own sampler.
+/// the larger size of the two, or lose their own sampler.  Layers stay within the limit while any merge allows it; what
+/// fits in no way at all becomes the error of the texture's creation.
 [[nodiscard]] TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, std::uint32_t max_layers = 2048);
 
 // ------------------------------------------------------------------------------------------------------- body
 
 namespace detail {
 
-inline std::uint32_t merge_cost(const TextureArrayPlan& a, const TextureArrayPlan& b) {
+/// What is lost by merging two arrays, most severe first: a device's limit, a sampler, memory.
+inline std::uint32_t merge_cost(const TextureArrayPlan& a, const TextureArrayPlan& b, std::uint32_t max_layers) {
     if (a.srgb != b.srgb) return ~0u;
+    const std::uint32_t layers = a.images.size() + b.images.size() > max_layers ? 0x80000000u : 0u;
     const std::uint32_t sampler = a.sampler == b.sampler ? 0u : 0x40000000u;
     const auto area = [](std::uint32_t w, std::uint32_t h) { return std::uint64_t{w} * h; };
     const std::uint64_t grown = area(std::max(a.size.width, b.size.width), std::max(a.size.height, b.size.height));
     const std::uint64_t waste = grown * (a.images.size() + b.images.size()) -
                                 area(a.size.width, a.size.height) * a.images.size() -
                                 area(b.size.width, b.size.height) * b.images.size();
-    return sampler | static_cast<std::uint32_t>(std::min<std::uint64_t>(waste >> 8u, 0x3FFFFFFFu));
+    return layers | sampler | static_cast<std::uint32_t>(std::min<std::uint64_t>(waste >> 8u, 0x3FFFFFFEu));
 }
 
 }  // namespace detail
@@ -95,7 +98,7 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
         std::uint32_t best = ~0u;
         for (std::size_t a = 0; a < plan.arrays.size(); ++a)
             for (std::size_t b = a + 1; b < plan.arrays.size(); ++b)
-                if (const std::uint32_t cost = detail::merge_cost(plan.arrays[a], plan.arrays[b]); cost < best)
+                if (const std::uint32_t cost = detail::merge_cost(plan.arrays[a], plan.arrays[b], max_layers); cost < best)
                     best = cost, best_a = a, best_b = b;
         if (best == ~0u) break;
         TextureArrayPlan& a = plan.arrays[best_a];
