@@ -78,7 +78,8 @@ inline GltfContainer gltf_open(std::span<const std::byte> bytes) {
     return container;
 }
 
-/// Parses the JSON.  Without a parser callback: with one, nlohmann::json takes quadratic time for long arrays of objects.
+/// Parses the JSON.  Without a parser callback: with one, nlohmann::json takes quadratic time for long arrays of
+/// objects.
 inline Json gltf_parse_json(std::string_view text, const GltfLimits& limits) {
     if (text.substr(0, 3) == "\xEF\xBB\xBF") gltf_fail("byte 0: the JSON starts with a byte order mark");
     if (text.size() > limits.max_json_bytes)
