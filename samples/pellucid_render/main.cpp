@@ -18,6 +18,7 @@ int report(const Error& error) {
         case Errc::unsupported: return static_cast<int>(Exit::no_device);
         case Errc::device_lost:
         case Errc::out_of_memory: return static_cast<int>(Exit::device);
+        case Errc::internal: return static_cast<int>(Exit::failed);
         default: return static_cast<int>(Exit::input);
     }
 }
@@ -44,7 +45,10 @@ int main(int argc, char** argv) {
         return static_cast<int>(Exit::done);
     }
     for (const std::string& file : output_files(options))
-        if (const Result<void> writable = check_writable(file); !writable) return report(writable.error());
+        if (const Result<void> writable = check_writable(file); !writable) {
+            report(writable.error());
+            return static_cast<int>(Exit::usage);
+        }
     const Result<Scene> scene = load_gltf(options.scene);
     if (!scene) return report(scene.error());
     const Result<Camera> camera = choose_camera(*scene, options);

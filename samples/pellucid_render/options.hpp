@@ -28,8 +28,8 @@ struct Options {
     std::string pipeline_cache;
 };
 
-/// Exit statuses of the command-line contract.
-enum class Exit : int { done = 0, usage = 2, input = 3, no_device = 4, device = 5, error_budget = 6 };
+/// Exit statuses of the command-line contract; `failed`: a driver, the validation layer or this program is at fault.
+enum class Exit : int { done = 0, failed = 1, usage = 2, input = 3, no_device = 4, device = 5, error_budget = 6 };
 
 /// Parses the command line.  Returns the exit status instead where the program is already done (--help, bad usage);
 /// what there is to say has been said.
