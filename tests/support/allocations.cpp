@@ -8,10 +8,13 @@
 namespace {
 thread_local std::uint64_t count = 0;
 
-void* take(std::size_t size, std::size_t alignment) {
+void* try_take(std::size_t size, std::size_t alignment) noexcept {
     ++count;
     const std::size_t rounded = (size + alignment - 1) / alignment * alignment;
-    if (void* found = std::aligned_alloc(alignment, rounded ? rounded : alignment)) return found;
+    return std::aligned_alloc(alignment, rounded ? rounded : alignment);
+}
+void* take(std::size_t size, std::size_t alignment) {
+    if (void* found = try_take(size, alignment)) return found;
     throw std::bad_alloc();
 }
 }  // namespace
@@ -31,6 +34,19 @@ void* operator new(std::size_t size, std::align_val_t a) {
 }
 void* operator new[](std::size_t size, std::align_val_t a) {
     return take(size, static_cast<std::size_t>(a));
+}
+// All forms, or those of a sanitizer would meet ours.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+    return try_take(size, alignof(std::max_align_t));
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+    return try_take(size, alignof(std::max_align_t));
+}
+void* operator new(std::size_t size, std::align_val_t a, const std::nothrow_t&) noexcept {
+    return try_take(size, static_cast<std::size_t>(a));
+}
+void* operator new[](std::size_t size, std::align_val_t a, const std::nothrow_t&) noexcept {
+    return try_take(size, static_cast<std::size_t>(a));
 }
 void operator delete(void* p) noexcept {
     std::free(p);
@@ -54,5 +70,17 @@ void operator delete(void* p, std::size_t, std::align_val_t) noexcept {
     std::free(p);
 }
 void operator delete[](void* p, std::size_t, std::align_val_t) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, const std::nothrow_t&) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p, const std::nothrow_t&) noexcept {
+    std::free(p);
+}
+void operator delete(void* p, std::align_val_t, const std::nothrow_t&) noexcept {
+    std::free(p);
+}
+void operator delete[](void* p, std::align_val_t, const std::nothrow_t&) noexcept {
     std::free(p);
 }
