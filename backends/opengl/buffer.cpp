@@ -6,6 +6,20 @@
 
 namespace pellucid::opengl {
 
+namespace {
+
+/// [byte] what the GPU has, where the driver tells; else as much as can be asked for.  NVIDIA's driver gives any size a
+/// name and fails later.
+std::uint64_t gpu_memory() {
+    if (!epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) return ~std::uint64_t{0};
+    constexpr GLenum total_available_kib = 0x9048;  // GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX
+    GLint kib = 0;
+    glGetIntegerv(total_available_kib, &kib);
+    return kib > 0 ? std::uint64_t{1024} * static_cast<std::uint64_t>(kib) : ~std::uint64_t{0};
+}
+
+}  // namespace
+
 Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
     PELLUCID_CHECK(enter());
     if (desc.size == 0)
@@ -15,6 +29,12 @@ Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
         return Error{Errc::invalid_argument,
                      text("The buffer '%s' of %llu bytes gets %zu initial bytes", desc.debug_name,
                           static_cast<unsigned long long>(desc.size), desc.initial.size())};
+    constexpr std::uint64_t surely_there = std::uint64_t{1} << 30;
+    if (desc.size > surely_there && desc.size > gpu_memory())
+        return Error{Errc::out_of_memory,
+                     text("The buffer '%s' of %llu bytes does not fit the %llu bytes of %s: make it smaller", desc.debug_name,
+                          static_cast<unsigned long long>(desc.size), static_cast<unsigned long long>(gpu_memory()),
+                          info().name.c_str())};
     GLbitfield map = 0, storage = 0;
     if (desc.memory != rhi::Memory::device) {
         map = GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;

@@ -17,7 +17,7 @@ Attributes fragment_attributes() {
     a.uv = in_uv;
     a.uv_dx = dFdxFine(in_uv);
     a.uv_dy = dFdyFine(in_uv);
-    a.color = in_color;
+    a.color = (in_draw.y & PELLUCID_DRAW_COLORS) != 0u ? in_color : vec4(1.0);
     a.front = gl_FrontFacing != ((in_draw.y & PELLUCID_DRAW_MIRRORED) != 0u);
     return a;
 }

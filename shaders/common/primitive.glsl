@@ -64,7 +64,9 @@ Attributes rebuild_attributes(uint first_record, uint primitive, ivec2 pixel, ou
                         normalize(axes * v2.tangent.xyz) * w.z;
         a.tangent.w = mirrored ? -v0.tangent.w : v0.tangent.w;
     }
-    a.color = unpack_color(v0.color) * w.x + unpack_color(v1.color) * w.y + unpack_color(v2.color) * w.z;
+    a.color = vec4(1.0);
+    if ((draw.flags & PELLUCID_DRAW_COLORS) != 0u)
+        a.color = unpack_color(v0.color) * w.x + unpack_color(v1.color) * w.y + unpack_color(v2.color) * w.z;
     vec4 uv0 = vec4(v0.u0, v0.v0, v0.uv1);
     vec4 uv1 = vec4(v1.u0, v1.v0, v1.uv1);
     vec4 uv2 = vec4(v2.u0, v2.v0, v2.uv1);

@@ -12,6 +12,7 @@
 #define PELLUCID_MATERIAL_BLEND 8u  // alpha is kept; it is 1 everywhere else
 
 #define PELLUCID_DRAW_MIRRORED 1u  // the instance's matrix has a negative determinant: facing is inverted
+#define PELLUCID_DRAW_COLORS 2u    // the mesh has vertex colours; an interpolated 1 need not be 1, so none are not read
 
 // Specialisation constant 0: what the scene needs (renderer/needs.hpp).  A branch for anything else is not compiled.
 #define PELLUCID_NEED_TEXTURES 1u

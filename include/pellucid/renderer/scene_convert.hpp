@@ -128,7 +128,7 @@ inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
     r.normal_x = to_gpu(n[0]);
     r.normal_y = to_gpu(n[1]);
     r.normal_z = to_gpu(n[2]);
-    r.flags = determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u;
+    r.flags = (r.flags & ~PELLUCID_DRAW_MIRRORED) | (determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u);
 }
 
 /// The inverse of a rigid matrix.
