@@ -113,6 +113,29 @@ TEMPLATE_LIST_TEST_CASE("scenes: object sorting cannot be exact where objects in
     }
 }
 
+#if defined(PELLUCID_HAS_OPENGL)
+TEST_CASE("scenes: OpenGL draws the same bits from SPIR-V as from text", "[gpu]") {
+    const auto folder = test::scenes();
+    if (!folder) return;
+    auto text = test::make_device<OpenGL>();
+    auto spirv = test::make_device<OpenGL>([](rhi::DeviceDesc& desc) { desc.gl_spirv = true; });
+    if (!text || !spirv) return;
+    const Scene scene = test::must(load_gltf((*folder / "L1_lit.gltf").string()));
+    for (const GBufferLayout layout : {GBufferLayout::compact, GBufferLayout::classic})
+        for (const ShadingStage stage : {ShadingStage::compute, ShadingStage::fragment}) {
+            RenderSettings settings = known_settings(lit);
+            settings.gbuffer = layout;
+            settings.shading = stage;
+            settings.exact = true;
+            const Frame a = draw<OpenGL>(*text, scene, settings), b = draw<OpenGL>(*spirv, scene, settings);
+            INFO(name(layout) << " " << name(stage));
+            CHECK(a.depth == b.depth);
+            CHECK(a.hdr.data == b.hdr.data);
+            CHECK(a.display.data == b.display.data);
+        }
+}
+#endif
+
 #if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
 namespace {
 

@@ -76,7 +76,7 @@ PELLUCID_INLINE Scene make_demo_scene() {
                                 .name = "lamp " + std::to_string(i)});
 
     Camera camera{.vertical_fov = 0.62, .near = 0.1, .name = "camera"};
-    camera.world_from_view = look_at({2.2, 3.3, 10.0}, {0.35, 2.55, 0});
+    camera.world_from_view = look_at({2.6, 3.2, 11.4}, {0.75, 2.2, 0});
     scene.cameras.push_back(camera);
     return scene;
 }
