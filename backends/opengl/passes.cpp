@@ -2,12 +2,5 @@
 #include <pellucid/opengl/passes.hpp>
 
 namespace pellucid {
-template class measure::GpuTimer<OpenGL>;
-template class Graph<OpenGL>;
-template class GBufferPass<OpenGL>;
-template class LightingPass<OpenGL>;
-template class SortedForwardPass<OpenGL>;
-template class TonemapPass<OpenGL>;
-template class GpuScene<OpenGL>;
-template class Renderer<OpenGL>;
+PELLUCID_RENDERER_INSTANCES(, OpenGL)
 }  // namespace pellucid

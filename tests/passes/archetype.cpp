@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every pass and the renderer, instantiated whole for the null backend: what compiles here uses the concepts and
 // nothing else.  Then they run on it, inside Validated, and fail at each creation in turn.
-#include <pellucid/passes/draw_list.hpp>
-#include <pellucid/passes/gbuffer.hpp>
-#include <pellucid/passes/lighting.hpp>
-#include <pellucid/passes/sorted_forward.hpp>
-#include <pellucid/passes/tonemap.hpp>
-#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/renderer/instances.hpp>
 #include <pellucid/rhi/null.hpp>
 #include <pellucid/rhi/validated.hpp>
 #include <pellucid/scene/demo_scene.hpp>
@@ -15,11 +10,9 @@
 #include "support/catch.hpp"
 #include "support/devices.hpp"
 
-template class pellucid::GBufferPass<pellucid::Null>;
-template class pellucid::LightingPass<pellucid::Null>;
-template class pellucid::SortedForwardPass<pellucid::Null>;
-template class pellucid::TonemapPass<pellucid::Null>;
-template class pellucid::Renderer<pellucid::Null>;
+namespace pellucid {
+PELLUCID_RENDERER_INSTANCES(, Null)
+}  // namespace pellucid
 
 using namespace pellucid;
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The list of what a backend's library instantiates, so that programs need not.
+#include <pellucid/renderer/renderer.hpp>
+
+/// `how` is `extern` to declare, empty to define.  Use it inside namespace pellucid.
+#define PELLUCID_RENDERER_INSTANCES(how, B)  \
+    how template class measure::GpuTimer<B>; \
+    how template class Graph<B>;             \
+    how template class GBufferPass<B>;       \
+    how template class LightingPass<B>;      \
+    how template class SortedForwardPass<B>; \
+    how template class TonemapPass<B>;       \
+    how template class GpuScene<B>;          \
+    how template class Renderer<B>;
