@@ -101,8 +101,9 @@ TEMPLATE_LIST_TEST_CASE("layers in any order of instances composite exactly, pre
         const glm::dvec4 got = middle<TestType>(*device, scene, test::flat_camera(), glm::vec3(background));
         for (int c = 0; c < 3; ++c) {
             INFO("channel " << c << ": " << got[c] << " instead of " << wanted[c]);
-            // Every write drops up to 2^-10 of the value; what is below is attenuated by what is above.
-            CHECK(got[c] <= wanted[c] + 1e-5);
+            // Every write drops up to 2^-10 of the value on Mesa, which rounds toward zero; an H200's blender rounds
+            // either way.  What is below is attenuated by what is above.
+            CHECK(got[c] <= wanted[c] + (device->info().software ? 1e-5 : 2.5 * half_step));
             CHECK(got[c] >= wanted[c] - 2.5 * half_step);
         }
         CHECK(got.a == 1.0);
