@@ -19,9 +19,8 @@ pellucid::Result<void> draw(const char* file, const char* picture) {
 
 int main(int argc, char** argv) {
     if (argc != 4) return std::fprintf(stderr, "usage: minimal auto|vulkan|opengl scene.glb picture.png\n"), 2;
-    auto done = pellucid::rhi::with_backend(pellucid::Backends{}, argv[1], [&]<class B>(std::type_identity<B>) {
-        return draw<B>(argv[2], argv[3]);
-    });
+    auto done = pellucid::rhi::with_backend(pellucid::Backends{}, argv[1],
+                                            [&]<class B>(std::type_identity<B>) { return draw<B>(argv[2], argv[3]); });
     if (done && *done) return 0;
     return std::fprintf(stderr, "%s\n", (done ? done->error() : done.error()).message.c_str()), 1;
 }

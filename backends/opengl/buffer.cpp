@@ -32,9 +32,9 @@ Result<rhi::Buffer> Device::make_buffer(const rhi::BufferDesc& desc) {
     constexpr std::uint64_t surely_there = std::uint64_t{1} << 30;
     if (desc.size > surely_there && desc.size > gpu_memory())
         return Error{Errc::out_of_memory,
-                     text("The buffer '%s' of %llu bytes does not fit the %llu bytes of %s: make it smaller", desc.debug_name,
-                          static_cast<unsigned long long>(desc.size), static_cast<unsigned long long>(gpu_memory()),
-                          info().name.c_str())};
+                     text("The buffer '%s' of %llu bytes does not fit the %llu bytes of %s: make it smaller",
+                          desc.debug_name, static_cast<unsigned long long>(desc.size),
+                          static_cast<unsigned long long>(gpu_memory()), info().name.c_str())};
     GLbitfield map = 0, storage = 0;
     if (desc.memory != rhi::Memory::device) {
         map = GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;

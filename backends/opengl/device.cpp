@@ -114,7 +114,10 @@ void debug_message(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length,
         severity == GL_DEBUG_SEVERITY_HIGH || type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR;
     // Advice on speed is not misuse: drivers tell of their own recompiles and buffer moves.
     const bool advice = type == GL_DEBUG_TYPE_PERFORMANCE;
-    sink->log(error ? Severity::error : advice ? Severity::info : Severity::warning, ("OpenGL: " + std::string(said)).c_str());
+    sink->log(error    ? Severity::error
+              : advice ? Severity::info
+                       : Severity::warning,
+              ("OpenGL: " + std::string(said)).c_str());
 }
 
 void start_debug_output(DebugSink& sink) {

@@ -46,11 +46,11 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
     struct Byte4 {
         std::uint8_t v[4];
     };
-    const std::size_t index = name == "normal"                              ? (compact ? 0 : 1)
-                              : name == "base_color"                        ? (compact ? 1 : 2)
-                              : name == "occlusion" && compact              ? 1
-                              : name == "emissive"                          ? (compact ? 3 : 4)
-                                                                            : (compact ? 2 : 3);
+    const std::size_t index = name == "normal"                 ? (compact ? 0 : 1)
+                              : name == "base_color"           ? (compact ? 1 : 2)
+                              : name == "occlusion" && compact ? 1
+                              : name == "emissive"             ? (compact ? 3 : 4)
+                                                               : (compact ? 2 : 3);
     PELLUCID_TRY(texels, renderer.read_gbuffer(index));
     auto half3 = [&](std::uint32_t x, std::uint32_t y) {
         const auto h = texels.template at<Half4>(x, y);
@@ -59,7 +59,9 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
     if (name == "emissive") {
         for_each(half3);
     } else if (name == "normal" && !compact) {
-        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::vec3(glm::dmat3(camera.world_from_view) * glm::dvec3(half3(x, y))); });
+        for_each([&](std::uint32_t x, std::uint32_t y) {
+            return glm::vec3(glm::dmat3(camera.world_from_view) * glm::dvec3(half3(x, y)));
+        });
     } else if (name == "normal") {
         for_each([&](std::uint32_t x, std::uint32_t y) {
             const auto n = reference::direction_from_oct32<double>(texels.template at<std::uint32_t>(x, y));
@@ -72,7 +74,8 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
             return glm::vec3(linear(0), linear(1), linear(2));
         });
     } else if (name == "occlusion" && compact) {
-        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::vec3(texels.template at<Byte4>(x, y).v[3] / 255.0f); });
+        for_each(
+            [&](std::uint32_t x, std::uint32_t y) { return glm::vec3(texels.template at<Byte4>(x, y).v[3] / 255.0f); });
     } else if (compact) {
         for_each([&](std::uint32_t x, std::uint32_t y) {
             const auto m = texels.template at<std::uint32_t>(x, y);
@@ -81,7 +84,9 @@ pellucid::Result<pellucid::ImageF> read_aov(pellucid::Renderer<B>& renderer, con
         });
     } else {
         const int channel = name == "metallic" ? 0 : name == "roughness" ? 1 : 2;
-        for_each([&](std::uint32_t x, std::uint32_t y) { return glm::vec3(texels.template at<Byte4>(x, y).v[channel] / 255.0f); });
+        for_each([&](std::uint32_t x, std::uint32_t y) {
+            return glm::vec3(texels.template at<Byte4>(x, y).v[channel] / 255.0f);
+        });
     }
     return out;
 }

@@ -14,7 +14,7 @@ struct Comparison {
     std::string json;  ///< one object
 };
 
-/// Compares this run's picture ([h,w,4] both) with the file that --compare names, prints the result, and writes the heat
-/// map if one is asked for.  Errors: io, parse, or invalid_argument where the sizes differ.
+/// Compares this run's picture ([h,w,4] both) with the file that --compare names, prints the result, and writes the
+/// heat map if one is asked for.  Errors: io, parse, or invalid_argument where the sizes differ.
 pellucid::Result<Comparison> compare(const Options& options, const pellucid::ImageF& linear,
                                      const pellucid::Image8& display);

@@ -13,13 +13,18 @@ using namespace pellucid;
 int report(const Error& error) {
     std::fprintf(stderr, "pellucid-render: %s\n", error.message.c_str());
     switch (error.code) {
-        case Errc::invalid_argument: return static_cast<int>(Exit::usage);
+        case Errc::invalid_argument:
+            return static_cast<int>(Exit::usage);
         case Errc::no_device:
-        case Errc::unsupported: return static_cast<int>(Exit::no_device);
+        case Errc::unsupported:
+            return static_cast<int>(Exit::no_device);
         case Errc::device_lost:
-        case Errc::out_of_memory: return static_cast<int>(Exit::device);
-        case Errc::internal: return static_cast<int>(Exit::failed);
-        default: return static_cast<int>(Exit::input);
+        case Errc::out_of_memory:
+            return static_cast<int>(Exit::device);
+        case Errc::internal:
+            return static_cast<int>(Exit::failed);
+        default:
+            return static_cast<int>(Exit::input);
     }
 }
 
@@ -53,10 +58,9 @@ int main(int argc, char** argv) {
     if (!scene) return report(scene.error());
     const Result<Camera> camera = choose_camera(*scene, options);
     if (!camera) return report(camera.error());
-    const Result<Result<int>> status =
-        rhi::with_backend(Backends{}, options.backend, [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> {
-            return run<B>(options, *scene, *camera);
-        });
+    const Result<Result<int>> status = rhi::with_backend(
+        Backends{}, options.backend,
+        [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> { return run<B>(options, *scene, *camera); });
     if (!status) return report(status.error());
     return *status ? **status : report(status->error());
 }

@@ -26,7 +26,8 @@ std::string parse_color(const std::string& text, glm::vec3& color) {
     if (std::sscanf(text.c_str(), "%f,%f,%f%c", &color.x, &color.y, &color.z, &end) != 3)
         return "'" + text + "' is not a colour: write three linear values, for example 0.1,0.1,0.2";
     for (int i = 0; i < 3; ++i)
-        if (!(color[i] >= 0.0f) || !std::isfinite(color[i])) return "'" + text + "' has a value that is negative or not finite";
+        if (!(color[i] >= 0.0f) || !std::isfinite(color[i]))
+            return "'" + text + "' has a value that is negative or not finite";
     return {};
 }
 
@@ -44,16 +45,19 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     std::string size, background, environment, transparency = "auto", lighting = "auto";
     std::vector<std::string> aovs;
     app.add_option("SCENE", o.scene, "glTF 2.0 file, .gltf or .glb");
-    app.add_option("--backend", o.backend, "auto, vulkan or opengl")->check(CLI::IsMember({"auto", "vulkan", "opengl"}));
+    app.add_option("--backend", o.backend, "auto, vulkan or opengl")
+        ->check(CLI::IsMember({"auto", "vulkan", "opengl"}));
     app.add_option("--device", o.device, "index or part of the name; see --list-devices");
     app.add_flag("--list-devices", o.list_devices, "list the devices of every backend and what each lacks");
     app.add_option("--size", size, "WIDTHxHEIGHT of the picture (1280x720)");
     app.add_option("--camera", o.camera, "index or name of a camera of the scene");
-    app.add_option("--transparency", transparency, "auto, none or sorted")->check(CLI::IsMember({"auto", "none", "sorted"}));
+    app.add_option("--transparency", transparency, "auto, none or sorted")
+        ->check(CLI::IsMember({"auto", "none", "sorted"}));
     add_choice<GBufferLayout>(app, "--gbuffer", o.settings.gbuffer,
                               {{"compact", GBufferLayout::compact}, {"classic", GBufferLayout::classic}},
                               "compact (16 bytes a pixel) or classic (36)");
-    app.add_option("--lighting", lighting, "auto or loop: every light at every pixel")->check(CLI::IsMember({"auto", "loop"}));
+    app.add_option("--lighting", lighting, "auto or loop: every light at every pixel")
+        ->check(CLI::IsMember({"auto", "loop"}));
     add_choice<ShadingStage>(app, "--shading", o.settings.shading,
                              {{"compute", ShadingStage::compute}, {"fragment", ShadingStage::fragment}},
                              "where lighting runs: compute or fragment");
@@ -71,7 +75,8 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
                            {"agx", ToneCurve::agx}},
                           "none, reinhard, neutral, aces or agx");
     app.add_option("--exposure", o.settings.exposure_ev, "stops: radiance times 2^EV")->check(CLI::Range(-64.0, 64.0));
-    app.add_flag("--exact", o.settings.exact, "lighting arithmetic with the same bits on both backends (about 10 % slower)");
+    app.add_flag("--exact", o.settings.exact,
+                 "lighting arithmetic with the same bits on both backends (about 10 % slower)");
     app.add_option("--out", o.out, "picture: .png (display), .exr or .pfm (linear, before the tone map)");
     app.add_option("--aov", aovs, "NAME=FILE: depth, normal, base_color, roughness, metallic, occlusion or emissive")
         ->allow_extra_args(false);
@@ -101,13 +106,15 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     if (!size.empty())
         if (const std::string wrong = parse_size(size, o.settings.size); !wrong.empty()) return {o, usage(wrong)};
     if (!background.empty())
-        if (const std::string wrong = parse_color(background, o.settings.background); !wrong.empty()) return {o, usage(wrong)};
+        if (const std::string wrong = parse_color(background, o.settings.background); !wrong.empty())
+            return {o, usage(wrong)};
     o.settings.transparency = transparency == "none" ? Transparency::none : Transparency::sorted;
     if (environment == "none") o.settings.default_light = false;
     if (budget_option->count() > 0) o.error_budget = budget;
     for (const std::string& aov : aovs) {
         const std::size_t at = aov.find('=');
-        if (at == std::string::npos || at + 1 == aov.size()) return {o, usage("--aov takes NAME=FILE, not '" + aov + "'")};
+        if (at == std::string::npos || at + 1 == aov.size())
+            return {o, usage("--aov takes NAME=FILE, not '" + aov + "'")};
         o.aovs.emplace_back(aov.substr(0, at), aov.substr(at + 1));
     }
     o.settings.keep_gbuffer = !o.aovs.empty();

@@ -13,7 +13,9 @@ using namespace pellucid;
 
 namespace {
 
-std::string ending(const std::string& file) { return std::filesystem::path(file).extension().string(); }
+std::string ending(const std::string& file) {
+    return std::filesystem::path(file).extension().string();
+}
 
 nlohmann::ordered_json summary(const measure::Summary& s) {
     return {{"median", s.median}, {"low", s.min}, {"high", s.max}, {"count", s.count}};
@@ -103,8 +105,7 @@ Result<void> write_stats(const std::string& file, const Options& options, const 
         ordered_json entry{{"name", pass.name}, {"ran", pass.ran}};
         if (!pass.ran) entry["why_not"] = pass.reason;
         for (const PassTime& time : report.pass_times)
-            if (time.name == pass.name)
-                entry["gpu_ms"] = summary(time.ms);
+            if (time.name == pass.name) entry["gpu_ms"] = summary(time.ms);
         passes.push_back(entry);
     }
     json["passes"] = passes;

@@ -34,7 +34,8 @@ struct Report {
     const pellucid::rhi::DeviceInfo* device = nullptr;
     pellucid::RenderStats stats;
     std::vector<PassTime> pass_times;
-    pellucid::measure::Summary frame_ms;  ///< wall clock round submit and wait; the first frame is left out if it can be
+    pellucid::measure::Summary
+        frame_ms;  ///< wall clock round submit and wait; the first frame is left out if it can be
     double load_to_first_frame_ms = 0;
     std::optional<Comparison> comparison;
 };

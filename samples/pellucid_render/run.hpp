@@ -88,8 +88,8 @@ pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, 
         }
         if (!options.stats.empty()) PELLUCID_CHECK(write_stats(options.stats, options, report));
         std::printf("%s on %s: %ux%u, %u draws, %.2f ms a frame%s%s\n", B::name, device->info().name.c_str(),
-                    options.settings.size.width, options.settings.size.height, report.stats.draws, report.frame_ms.median,
-                    options.out.empty() ? "" : ", ", options.out.c_str());
+                    options.settings.size.width, options.settings.size.height, report.stats.draws,
+                    report.frame_ms.median, options.out.empty() ? "" : ", ", options.out.c_str());
     }
     if (options.validate && messages.errors != 0)
         return Error{Errc::internal, std::to_string(messages.errors) + " validation messages"};

@@ -27,9 +27,9 @@ struct RawParameters {
     vec2 half_extent;  // [m] of the view at `distance`
     float distance;    // [m] of the surface, a plane across the view
     float roughness;
-    float lean;   // the normal is normalize(lean · ndc, 1)
-    uint count;   // lights
-    vec2 pixel;   // 1 / size
+    float lean;  // the normal is normalize(lean · ndc, 1)
+    uint count;  // lights
+    vec2 pixel;  // 1 / size
     RawLight lights[BENCH_LIGHTING_MAX_LIGHTS];
 };
 PELLUCID_GPU_SIZE(RawParameters, 48 + 32 * BENCH_LIGHTING_MAX_LIGHTS)

@@ -3,4 +3,6 @@
 // expect: error: ignoring returned value of type .*Result<.*BufferTag.*nodiscard
 #include <pellucid/rhi/null.hpp>
 
-void leave(pellucid::null::Device& device) { device.make_buffer({.size = 4}); }
+void leave(pellucid::null::Device& device) {
+    device.make_buffer({.size = 4});
+}

@@ -41,8 +41,8 @@ struct Error {
 template <class T = void>
 class [[nodiscard]] Result {
 public:
-    Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}        // NOLINT: implicit by design
-    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}    // NOLINT: implicit by design
+    Result(T value) : state_(std::in_place_index<0>, std::move(value)) {}      // NOLINT: implicit by design
+    Result(Error error) : state_(std::in_place_index<1>, std::move(error)) {}  // NOLINT: implicit by design
 
     [[nodiscard]] explicit operator bool() const noexcept { return state_.index() == 0; }
     [[nodiscard]] T& operator*() & { return assert(*this), *std::get_if<0>(&state_); }
@@ -77,9 +77,9 @@ private:
 /// `PELLUCID_TRY(target, expression);`: assigns the value of a `Result` to `target` (a declaration or an lvalue), or
 /// returns its error from the enclosing function.
 #define PELLUCID_TRY(target, ...) PELLUCID_TRY_INNER(PELLUCID_CONCAT(pellucid_try_, __LINE__), target, __VA_ARGS__)
-#define PELLUCID_TRY_INNER(temporary, target, ...)  \
-    auto temporary = (__VA_ARGS__);                 \
-    if (!temporary) return temporary.error();       \
+#define PELLUCID_TRY_INNER(temporary, target, ...) \
+    auto temporary = (__VA_ARGS__);                \
+    if (!temporary) return temporary.error();      \
     target = std::move(*temporary)
 /// `PELLUCID_CHECK(expression);`: returns the error of a `Result<void>` from the enclosing function, if there is one.
 #define PELLUCID_CHECK(...)                                                                      \

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The one registry of binding numbers.  A number is unique in the whole program, so it is the same on Vulkan (where the
-// set comes with it) and on OpenGL (where sets do not exist).  Storage images take 0 … 7, because OpenGL guarantees only
-// eight image units.
+// set comes with it) and on OpenGL (where sets do not exist).  Storage images take 0 … 7, because OpenGL guarantees
+// only eight image units.
 #ifndef PELLUCID_GPU_BINDINGS_H
 #define PELLUCID_GPU_BINDINGS_H
 
 // group 0, "frame": made and bound by the device
-#define PELLUCID_BIND_FRAME 8     // uniform block: FrameParams, or what the user of the RHI uploads
-#define PELLUCID_BIND_RECORDS 9   // storage block: per-draw records of this frame
-#define PELLUCID_BIND_PUSH 10     // OpenGL only: the uniform block that stands for push constants
+#define PELLUCID_BIND_FRAME 8    // uniform block: FrameParams, or what the user of the RHI uploads
+#define PELLUCID_BIND_RECORDS 9  // storage block: per-draw records of this frame
+#define PELLUCID_BIND_PUSH 10    // OpenGL only: the uniform block that stands for push constants
 
 // group 1, "pass": images 0 … 7, the rest 12 … 23
 #define PELLUCID_PASS_IMAGE_0 0

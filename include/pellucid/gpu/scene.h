@@ -41,7 +41,7 @@ PELLUCID_GPU_BEGIN
 
 // Group 0, binding PELLUCID_BIND_FRAME.
 struct FrameParams {
-    vec4 world_x;          // columns of world_from_view (its rotation); w unused
+    vec4 world_x;  // columns of world_from_view (its rotation); w unused
     vec4 world_y;
     vec4 world_z;
     vec4 clip_scale;       // sx, sy, ox, oy of ClipFromView
@@ -53,7 +53,7 @@ struct FrameParams {
     uint tonemap;          // which curve (gpu/tonemap.h)
     vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
-    uvec4 light_ends;      // one past the last directional, point and spot light (they are stored in this order)
+    uvec4 light_ends;  // one past the last directional, point and spot light (they are stored in this order)
 };
 PELLUCID_GPU_SIZE(FrameParams, 160)
 PELLUCID_GPU_OFFSET(FrameParams, ambient, 96)
@@ -127,12 +127,12 @@ PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 
 // Scene group, PELLUCID_BIND_LIGHTS: directional, then point, then spot lights.
 struct LightRecord {
-    vec3 position;  // [m] view; unused for directional lights
+    vec3 position;                // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited
-    vec3 to_light;  // view, unit, against the way the light travels: directional and spot
-    float spot_scale;  // 1 / (cos inner - cos outer)
-    vec3 intensity;  // colour times [lx] or [cd]
-    float spot_edge;  // 1 - cos outer
+    vec3 to_light;                // view, unit, against the way the light travels: directional and spot
+    float spot_scale;             // 1 / (cos inner - cos outer)
+    vec3 intensity;               // colour times [lx] or [cd]
+    float spot_edge;              // 1 - cos outer
 };
 PELLUCID_GPU_SIZE(LightRecord, 48)
 

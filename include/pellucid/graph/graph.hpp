@@ -163,8 +163,9 @@ Result<void> Graph<B>::allocate(typename B::Device& device) {
             const rhi::TextureDesc& d = v.desc;
             Physical* reused = nullptr;
             for (Physical& p : physical)
-                if (p.free_after < pass && p.desc.size == d.size && p.desc.format == d.format && p.desc.mips == d.mips &&
-                    p.desc.layers == d.layers && p.desc.kind == d.kind && p.desc.usage == d.usage)
+                if (p.free_after < pass && p.desc.size == d.size && p.desc.format == d.format &&
+                    p.desc.mips == d.mips && p.desc.layers == d.layers && p.desc.kind == d.kind &&
+                    p.desc.usage == d.usage)
                     reused = &p;
             if (reused) {
                 v.physical = reused->texture;

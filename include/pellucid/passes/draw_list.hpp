@@ -24,7 +24,7 @@ struct SceneBinding {
     rhi::RecordSlice records = {};  ///< DrawRecord, one an instance
     rhi::Group group = {};          ///< scene_group_layout()
     rhi::Buffer indices = {};
-    rhi::Uses uses = {};            ///< every resource of `group`
+    rhi::Uses uses = {};  ///< every resource of `group`
 };
 
 /// Shape of group 2: vertices, indices, materials, lights, texture arrays.

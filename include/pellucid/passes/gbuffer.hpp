@@ -30,9 +30,9 @@ enum class GBufferLayout : std::uint8_t {
 
 struct GBufferDesc {
     GBufferLayout layout = GBufferLayout::compact;
-    bool emissive = false;                          ///< add the target for emitted radiance
-    std::uint32_t needs = PELLUCID_NEED_ALL;        ///< PELLUCID_NEED_* of the scene
-    std::uint32_t culls = 7;                        ///< bit (1 << Cull) for each way of culling in use
+    bool emissive = false;                    ///< add the target for emitted radiance
+    std::uint32_t needs = PELLUCID_NEED_ALL;  ///< PELLUCID_NEED_* of the scene
+    std::uint32_t culls = 7;                  ///< bit (1 << Cull) for each way of culling in use
 };
 
 /// `[h, w]` textures of gbuffer_formats(), and d32_float depth (reversed, cleared to 0).
@@ -42,8 +42,8 @@ struct GBufferTargets {
     Extent2D size = {};
 };
 
-/// Rasterises surfaces into a G-buffer, the same bits on every API; depth test greater-or-equal, so that of two equal depths the later draw wins.
-/// Shaders: shaders/gbuffer.  Reference: reference/gbuffer.hpp.
+/// Rasterises surfaces into a G-buffer, the same bits on every API; depth test greater-or-equal, so that of two equal
+/// depths the later draw wins. Shaders: shaders/gbuffer.  Reference: reference/gbuffer.hpp.
 template <rhi::Backend B>
 class GBufferPass {
 public:
@@ -67,13 +67,15 @@ Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const 
     pass.emissive_ = desc.emissive;
     const bool compact = desc.layout == GBufferLayout::compact;
     const rhi::SpecConstant constants[] = {{0, desc.needs}};
-    rhi::GraphicsPipelineDesc pipeline{
-        .vertex = &shaders::gbuffer_vert,
-        .fragment = compact ? &shaders::gbuffer_frag : &shaders::gbuffer_classic_frag,
-        .constants = constants,
-        .scene_group = scene_group_layout(),
-        .depth = {.format = rhi::Format::d32_float, .test = true, .write = true, .compare = rhi::Compare::greater_equal},
-        .debug_name = "gbuffer"};
+    rhi::GraphicsPipelineDesc pipeline{.vertex = &shaders::gbuffer_vert,
+                                       .fragment = compact ? &shaders::gbuffer_frag : &shaders::gbuffer_classic_frag,
+                                       .constants = constants,
+                                       .scene_group = scene_group_layout(),
+                                       .depth = {.format = rhi::Format::d32_float,
+                                                 .test = true,
+                                                 .write = true,
+                                                 .compare = rhi::Compare::greater_equal},
+                                       .debug_name = "gbuffer"};
     for (const rhi::Format format : gbuffer_formats(desc.layout, desc.emissive))
         pipeline.colors.push_back({.format = format});
     PELLUCID_CHECK(pass.pipelines_.create(device, pipeline, desc.culls));

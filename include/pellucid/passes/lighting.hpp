@@ -33,7 +33,8 @@ struct LightingDesc {
 };
 
 /// `hdr = emitted + ambient · occlusion · base + Σ f(v, l) N·L E(light)` where depth is not 0, else the background.
-/// Linear radiance, alpha 1.  Formulae and sources: reference/brdf.hpp, reference/lighting.hpp.  Shaders: shaders/lighting.
+/// Linear radiance, alpha 1.  Formulae and sources: reference/brdf.hpp, reference/lighting.hpp.  Shaders:
+/// shaders/lighting.
 template <rhi::Backend B>
 class LightingPass {
 public:
@@ -97,8 +98,8 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
                                       .wrap_u = rhi::Wrap::clamp,
                                       .wrap_v = rhi::Wrap::clamp,
                                       .debug_name = "lighting.gbuffer"}));
-    const rhi::GroupDesc group = detail::gbuffer_group(gbuffer, desc.emissive, pass.sampler_,
-                                                       compute ? hdr : rhi::Texture{}, "lighting");
+    const rhi::GroupDesc group =
+        detail::gbuffer_group(gbuffer, desc.emissive, pass.sampler_, compute ? hdr : rhi::Texture{}, "lighting");
     PELLUCID_OWN(pass.group_, device, device.make_group(group));
     for (const rhi::Texture texture : gbuffer.colors) pass.uses_.push_back(rhi::use(texture, rhi::Access::sampled));
     pass.uses_.push_back(rhi::use(gbuffer.depth, rhi::Access::sampled));
@@ -108,9 +109,10 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
     const std::uint32_t needs = desc.emissive ? desc.needs : desc.needs & ~PELLUCID_NEED_EMISSIVE;
     const rhi::SpecConstant constants[] = {{0, needs}, {1, static_cast<std::uint32_t>(desc.brdf)}};
     using namespace shaders;
-    const rhi::Shader* const all[2][2][2] = {{{&lighting_comp, &lighting_comp_exact}, {&lighting_frag, &lighting_frag_exact}},
-                                             {{&lighting_classic_comp, &lighting_classic_comp_exact},
-                                              {&lighting_classic_frag, &lighting_classic_frag_exact}}};
+    const rhi::Shader* const all[2][2][2] = {
+        {{&lighting_comp, &lighting_comp_exact}, {&lighting_frag, &lighting_frag_exact}},
+        {{&lighting_classic_comp, &lighting_classic_comp_exact},
+         {&lighting_classic_frag, &lighting_classic_frag_exact}}};
     const rhi::Shader* const shader = all[compact ? 0 : 1][compute ? 0 : 1][desc.exact ? 1 : 0];
     if (compute) {
         PELLUCID_OWN(pass.pipeline_, device,

@@ -38,8 +38,8 @@ struct SortedForwardDesc {
     bool exact = false;
 };
 
-/// `dst = src + (1 - alpha) dst` in linear HDR, each instance in the order given.  Every fragment is lit by the function
-/// that lights opaque pixels.  Depth is tested greater-or-equal against the opaque surfaces and not written.
+/// `dst = src + (1 - alpha) dst` in linear HDR, each instance in the order given.  Every fragment is lit by the
+/// function that lights opaque pixels.  Depth is tested greater-or-equal against the opaque surfaces and not written.
 /// Exact where instances do not overlap in depth and none overlaps itself but for its back and front faces: a
 /// double-sided instance is drawn twice, back faces first.  Shaders: shaders/sorted_forward.
 template <rhi::Backend B>

@@ -57,12 +57,13 @@ Result<TonemapPass<B>> TonemapPass<B>::create(typename B::Device& device, rhi::T
                                       .mag = rhi::Filter::nearest,
                                       .mipmapped = false,
                                       .debug_name = "tonemap.input"}));
-    PELLUCID_OWN(pass.group_, device,
-                 device.make_group({.slot = rhi::GroupSlot::pass,
-                                    .layout = layout,
-                                    .bindings = {{.binding = PELLUCID_TONEMAP_OUTPUT, .texture = display},
-                                                 {.binding = PELLUCID_TONEMAP_INPUT, .texture = hdr, .sampler = pass.sampler_}},
-                                    .debug_name = "tonemap"}));
+    PELLUCID_OWN(
+        pass.group_, device,
+        device.make_group({.slot = rhi::GroupSlot::pass,
+                           .layout = layout,
+                           .bindings = {{.binding = PELLUCID_TONEMAP_OUTPUT, .texture = display},
+                                        {.binding = PELLUCID_TONEMAP_INPUT, .texture = hdr, .sampler = pass.sampler_}},
+                           .debug_name = "tonemap"}));
     PELLUCID_OWN(pass.pipeline_, device,
                  device.make_pipeline(rhi::ComputePipelineDesc{
                      .compute = &shaders::tonemap_comp, .pass_group = layout, .debug_name = "tonemap"}));

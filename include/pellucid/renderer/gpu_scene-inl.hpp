@@ -30,9 +30,13 @@ Result<void> GpuScene<B>::make_buffer(typename B::Device& device, rhi::Unique<ty
 
 template <rhi::Backend B>
 Result<void> GpuScene<B>::make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan) {
-    auto filter = [](TextureFilter f) { return f == TextureFilter::linear ? rhi::Filter::linear : rhi::Filter::nearest; };
+    auto filter = [](TextureFilter f) {
+        return f == TextureFilter::linear ? rhi::Filter::linear : rhi::Filter::nearest;
+    };
     auto wrap = [](TextureWrap w) {
-        return w == TextureWrap::repeat ? rhi::Wrap::repeat : w == TextureWrap::mirror ? rhi::Wrap::mirror : rhi::Wrap::clamp;
+        return w == TextureWrap::repeat   ? rhi::Wrap::repeat
+               : w == TextureWrap::mirror ? rhi::Wrap::mirror
+                                          : rhi::Wrap::clamp;
     };
     for (const TextureArrayPlan& array : plan.arrays) {
         // All layers of mip 0, then of mip 1, …: the order of TextureDesc::initial.
@@ -97,13 +101,16 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
                   .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
                   .vertex_offset = static_cast<std::int32_t>(p.record.first_vertex),
                   .record = static_cast<std::uint32_t>(placed_.size()),
-                  .cull = material.double_sided ? rhi::Cull::none : mirrored ? rhi::Cull::front : rhi::Cull::back};
+                  .cull = material.double_sided ? rhi::Cull::none
+                          : mirrored            ? rhi::Cull::front
+                                                : rhi::Cull::back};
         p.translucent = blend;
         mirrored_.push_back(mirrored ? 1 : 0);
         auto bit = [](rhi::Cull cull) { return 1u << static_cast<std::uint32_t>(cull); };
         if (blend) {
             // Double-sided translucents are drawn as back faces, then front faces.
-            translucent_culls_ |= material.double_sided ? bit(rhi::Cull::front) | bit(rhi::Cull::back) : bit(p.item.cull);
+            translucent_culls_ |=
+                material.double_sided ? bit(rhi::Cull::front) | bit(rhi::Cull::back) : bit(p.item.cull);
             sorted_.push_back({p.item, 0});
         } else {
             opaque_culls_ |= bit(p.item.cull);
@@ -144,8 +151,10 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     out.light_records_.resize(std::max<std::size_t>(1, out.light_sources_.size()));
 
     using enum rhi::BufferUsage;
-    PELLUCID_CHECK(out.make_buffer(device, out.vertices_, std::span<const gpu::Vertex>(vertices), storage, "scene.vertices"));
-    PELLUCID_CHECK(out.make_buffer(device, out.indices_, std::span<const std::uint32_t>(indices), index, "scene.indices"));
+    PELLUCID_CHECK(
+        out.make_buffer(device, out.vertices_, std::span<const gpu::Vertex>(vertices), storage, "scene.vertices"));
+    PELLUCID_CHECK(
+        out.make_buffer(device, out.indices_, std::span<const std::uint32_t>(indices), index, "scene.indices"));
     PELLUCID_CHECK(out.make_buffer(device, out.materials_, std::span<const gpu::MaterialRecord>(materials), storage,
                                    "scene.materials"));
     PELLUCID_CHECK(out.make_buffer(device, out.lights_, std::span<const gpu::LightRecord>(out.light_records_),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// A scene on the GPU, laid out once so that any stage can evaluate any surface: vertices, indices, a material table and
-/// texture arrays in one group; instances as records of the frame's ring.
+/// A scene on the GPU, laid out once so that any stage can evaluate any surface: vertices, indices, a material table
+/// and texture arrays in one group; instances as records of the frame's ring.
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
@@ -26,7 +26,8 @@ public:
 
     /// Writes the frame's uniforms, instance records and (where the camera moved) lights, and sorts translucents.
     /// Precondition: no pass is open.  Errors: those of the rings.
-    [[nodiscard]] Result<void> begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings);
+    [[nodiscard]] Result<void> begin_frame(typename B::Commands& cmd, const Camera& camera,
+                                           const RenderSettings& settings);
 
     /// What passes bind; valid after begin_frame, for this frame.
     [[nodiscard]] const SceneBinding& binding() const noexcept { return binding_; }
@@ -42,15 +43,16 @@ public:
 
 private:
     struct Placed {
-        gpu::DrawRecord record;         ///< all but the matrices, which depend on the camera
+        gpu::DrawRecord record;  ///< all but the matrices, which depend on the camera
         glm::dmat4 world_from_object{1.0};
-        glm::dvec3 center{0, 0, 0};     ///< [m] world, of the bounds
+        glm::dvec3 center{0, 0, 0};  ///< [m] world, of the bounds
         DrawItem item;
         bool translucent = false;
     };
     template <class T>
-    [[nodiscard]] Result<void> make_buffer(typename B::Device& device, rhi::Unique<typename B::Device, rhi::Buffer>& out,
-                                           std::span<const T> values, rhi::BufferUsage usage, const char* debug_name);
+    [[nodiscard]] Result<void> make_buffer(typename B::Device& device,
+                                           rhi::Unique<typename B::Device, rhi::Buffer>& out, std::span<const T> values,
+                                           rhi::BufferUsage usage, const char* debug_name);
     [[nodiscard]] Result<void> make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan);
     void place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings);
     void update_lights(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world);

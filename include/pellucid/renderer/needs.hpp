@@ -10,9 +10,9 @@
 namespace pellucid {
 
 struct SceneNeeds {
-    std::uint32_t mask = 0;     ///< PELLUCID_NEED_* of gpu/scene.h
-    bool opaque = false;        ///< any opaque or masked instance: a G-buffer and a lighting pass
-    bool translucent = false;   ///< any blended instance that is to be drawn
+    std::uint32_t mask = 0;        ///< PELLUCID_NEED_* of gpu/scene.h
+    bool opaque = false;           ///< any opaque or masked instance: a G-buffer and a lighting pass
+    bool translucent = false;      ///< any blended instance that is to be drawn
     bool emissive_target = false;  ///< the G-buffer stores emitted radiance
     [[nodiscard]] bool has(std::uint32_t bits) const noexcept { return (mask & bits) != 0; }
 };

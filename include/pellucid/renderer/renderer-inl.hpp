@@ -80,13 +80,15 @@ void Renderer<B>::declare_opaque() {
             gbuffer_ = {.depth = graph_[depth_], .size = settings_.size};
             for (const GraphTexture t : colors_) gbuffer_.colors.push_back(graph_[t]);
             PELLUCID_TRY(gbuffer_pass_, GBufferPass<B>::create(device, {.layout = settings_.gbuffer,
-                                                                         .emissive = needs_.emissive_target,
-                                                                         .needs = needs_.mask,
-                                                                         .culls = scene_->opaque_culls()}));
+                                                                        .emissive = needs_.emissive_target,
+                                                                        .needs = needs_.mask,
+                                                                        .culls = scene_->opaque_culls()}));
             pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->opaque_culls()));
             return {};
         },
-        [this](typename B::Commands& cmd) { gbuffer_pass_->record(cmd, gbuffer_, scene_->binding(), scene_->opaque()); });
+        [this](typename B::Commands& cmd) {
+            gbuffer_pass_->record(cmd, gbuffer_, scene_->binding(), scene_->opaque());
+        });
     graph_.add(
         light,
         [this](typename B::Device& device) -> Result<void> {
@@ -178,7 +180,8 @@ Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
 template <rhi::Backend B>
 Result<ImageF> Renderer<B>::read_float(rhi::Texture texture) {
     rhi::Texels texels;
-    PELLUCID_TRY(texels, rhi::download<B>(*device_, texture, {.size = settings_.size, .format = rhi::Format::rgba16_float}));
+    PELLUCID_TRY(texels,
+                 rhi::download<B>(*device_, texture, {.size = settings_.size, .format = rhi::Format::rgba16_float}));
     ImageF image(settings_.size.width, settings_.size.height, 4);
     for (std::size_t i = 0; i < image.data.size(); ++i) {
         std::uint16_t half;
@@ -200,13 +203,14 @@ Result<Image8> Renderer<B>::read_display() {
 template <rhi::Backend B>
 Result<rhi::Texels> Renderer<B>::read_gbuffer(std::size_t index) {
     if (!settings_.keep_gbuffer || !needs_.opaque)
-        return Error{Errc::invalid_argument, "there is no G-buffer to read: set keep_gbuffer, and draw an opaque surface"};
+        return Error{Errc::invalid_argument,
+                     "there is no G-buffer to read: set keep_gbuffer, and draw an opaque surface"};
     if (index == depth_index)
         return rhi::download<B>(*device_, gbuffer_.depth, {.size = settings_.size, .format = rhi::Format::d32_float});
     const auto formats = gbuffer_formats(settings_.gbuffer, needs_.emissive_target);
     if (index >= formats.size())
-        return Error{Errc::invalid_argument, "the G-buffer has " + std::to_string(formats.size()) + " targets; number " +
-                                                 std::to_string(index) + " was asked for"};
+        return Error{Errc::invalid_argument, "the G-buffer has " + std::to_string(formats.size()) +
+                                                 " targets; number " + std::to_string(index) + " was asked for"};
     return rhi::download<B>(*device_, gbuffer_.colors[index], {.size = settings_.size, .format = formats[index]});
 }
 

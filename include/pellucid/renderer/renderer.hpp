@@ -27,7 +27,7 @@ struct RenderStats {
     std::uint32_t draws = 0;               ///< a frame
     std::uint64_t triangles = 0;           ///< of the scene's instances
     std::uint32_t lights = 0;
-    std::vector<std::string> warnings;     ///< of the scene and of its upload
+    std::vector<std::string> warnings;  ///< of the scene and of its upload
 };
 
 /// Renders one scene with one set of settings on one device, which must outlive it.

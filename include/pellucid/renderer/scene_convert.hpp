@@ -24,7 +24,9 @@ struct MeshPlacement {
 [[nodiscard]] inline gpu::vec3 to_gpu(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
-[[nodiscard]] inline gpu::vec3 to_gpu(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+[[nodiscard]] inline gpu::vec3 to_gpu(const glm::vec3& v) {
+    return {v.x, v.y, v.z};
+}
 
 /// Four values in [0,1] → 4 × unorm16, rounded to nearest; k/255 is exact.
 [[nodiscard]] inline gpu::uvec2 pack_color(const glm::vec4& c) {
@@ -62,7 +64,8 @@ struct MeshPlacement {
 }
 
 /// KHR_texture_transform as a matrix: uv' = T R S uv, with R turning counter-clockwise in texture space.
-[[nodiscard]] inline gpu::TextureUse gpu_texture_use(const TextureRef& ref, const std::vector<TexturePlan::Place>& places) {
+[[nodiscard]] inline gpu::TextureUse gpu_texture_use(const TextureRef& ref,
+                                                     const std::vector<TexturePlan::Place>& places) {
     gpu::TextureUse use{};
     if (!ref.used() || places[ref.texture].array == no_index) return use;
     const double c = std::cos(static_cast<double>(ref.rotation)), s = std::sin(static_cast<double>(ref.rotation));

@@ -15,7 +15,9 @@ enum class Transparency : std::uint8_t {
     none,   ///< translucent surfaces are left out
     sorted  ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
 };
-[[nodiscard]] constexpr const char* name(Transparency t) noexcept { return t == Transparency::none ? "none" : "sorted"; }
+[[nodiscard]] constexpr const char* name(Transparency t) noexcept {
+    return t == Transparency::none ? "none" : "sorted";
+}
 
 struct RenderSettings {
     Extent2D size{1280, 720};  ///< [texel] both in 1 … the device's limit
@@ -24,12 +26,12 @@ struct RenderSettings {
     ShadingStage shading = ShadingStage::compute;  ///< where lighting runs
     Brdf brdf = Brdf::gltf;
     ToneCurve tonemap = ToneCurve::neutral;
-    float exposure_ev = 0;                 ///< radiance is multiplied by 2^exposure_ev before the tone curve
+    float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve
     glm::vec3 background{0.05f, 0.05f, 0.08f};  ///< linear radiance where nothing is
-    bool default_light = true;  ///< a scene without lights gets one sun and a constant ambient
+    bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
     bool exact = false;         ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
     bool keep_gbuffer = false;  ///< the G-buffer may be read back after a frame (Renderer::read_*)
-    bool every_need = false;    ///< build everything whether the scene needs it or not (to prove that it changes nothing)
+    bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 
 }  // namespace pellucid

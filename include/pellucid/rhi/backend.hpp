@@ -27,7 +27,8 @@ concept CreatesBuffers = requires(D d, const D c, const BufferDesc& desc, Buffer
 };
 
 template <class D>
-concept CreatesTextures = requires(D d, const D c, const TextureDesc& desc, const SamplerDesc& how, Texture t, Sampler s) {
+concept CreatesTextures = requires(D d, const D c, const TextureDesc& desc, const SamplerDesc& how, Texture t,
+                                   Sampler s) {
     { d.make_texture(desc) } -> std::same_as<Result<Texture>>;
     { d.make_sampler(how) } -> std::same_as<Result<Sampler>>;
     { d.destroy(t) } -> std::same_as<void>;
@@ -87,8 +88,8 @@ concept RecordsPasses = requires(C c, const RenderPassDesc& r, const ComputePass
 /// Bind the pipeline first.  Groups stay bound while the next pipelines declare the same layouts; push data and the
 /// frame group always stay bound within a pass.  `bind_frame` binds group 0: the frame's uniforms and its records.
 template <class C>
-concept RecordsState = requires(C c, Pipeline pipeline, Group group, Buffer indices, UniformSlice u, const RecordSlice& r,
-                                std::span<const std::byte> bytes, Rect rect) {
+concept RecordsState = requires(C c, Pipeline pipeline, Group group, Buffer indices, UniformSlice u,
+                                const RecordSlice& r, std::span<const std::byte> bytes, Rect rect) {
     c.bind_pipeline(pipeline);
     c.bind_group(group);
     c.bind_frame(u, r);
@@ -100,7 +101,8 @@ concept RecordsState = requires(C c, Pipeline pipeline, Group group, Buffer indi
 
 /// Indirect records have the members of `DrawIndexed` and (x, y, z), in order, as 32-bit words.
 template <class C>
-concept RecordsWork = requires(C c, const Draw& d, const DrawIndexed& i, Buffer arguments, std::uint32_t n, std::uint64_t at) {
+concept RecordsWork = requires(C c, const Draw& d, const DrawIndexed& i, Buffer arguments, std::uint32_t n,
+                               std::uint64_t at) {
     c.draw(d);
     c.draw_indexed(i);
     c.draw_indexed_indirect(arguments, at, n);
@@ -112,7 +114,8 @@ concept RecordsWork = requires(C c, const Draw& d, const DrawIndexed& i, Buffer 
 /// split); `fill` writes 32-bit words.  `generate_mips` halves from level 0 with a linear filter: 2×2 means for even
 /// sizes, the driver's own weights for odd ones.
 template <class C>
-concept RecordsCopies = requires(C c, Buffer b, Texture t, BufferCopy bc, TextureCopy tc, std::span<const std::byte> bytes) {
+concept RecordsCopies = requires(C c, Buffer b, Texture t, BufferCopy bc, TextureCopy tc,
+                                 std::span<const std::byte> bytes) {
     c.copy(b, b, bc);
     c.copy(t, b, tc);
     c.copy(b, t, tc);
@@ -139,8 +142,8 @@ concept RecordsQueries = requires(C c, Queries queries, std::uint32_t index) {
 };
 
 template <class C>
-concept CommandList = RecordsPasses<C> && RecordsState<C> && RecordsWork<C> && RecordsCopies<C> && UploadsFrameData<C> &&
-                      RecordsQueries<C>;
+concept CommandList = RecordsPasses<C> && RecordsState<C> && RecordsWork<C> && RecordsCopies<C> &&
+    UploadsFrameData<C> && RecordsQueries<C>;
 
 template <class D, class C>
 concept DeviceOf = CreatesBuffers<D> && CreatesTextures<D> && CreatesPipelines<D> && CreatesQueries<D> && Submits<D, C>;
@@ -148,11 +151,11 @@ concept DeviceOf = CreatesBuffers<D> && CreatesTextures<D> && CreatesPipelines<D
 /// A backend: `B::name`, `B::Device` (made by `B::create`), `B::Commands`; `B::list` tells what devices there are.
 template <class B>
 concept Backend = DeviceOf<typename B::Device, typename B::Commands> && CommandList<typename B::Commands> &&
-                  requires(const DeviceDesc& desc) {
-                      { B::name } -> std::convertible_to<const char*>;
-                      { B::create(desc) } -> std::same_as<Result<std::unique_ptr<typename B::Device>>>;
-                      { B::list() } -> std::same_as<std::vector<DeviceInfo>>;
-                  };
+    requires(const DeviceDesc& desc) {
+    { B::name } -> std::convertible_to<const char*>;
+    { B::create(desc) } -> std::same_as<Result<std::unique_ptr<typename B::Device>>>;
+    { B::list() } -> std::same_as<std::vector<DeviceInfo>>;
+};
 
 template <Backend B>
 using DeviceFor = typename B::Device;

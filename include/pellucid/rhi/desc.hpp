@@ -28,30 +28,30 @@ using Group = Handle<struct GroupTag>;        ///< an immutable set of bound res
 using Queries = Handle<struct QueriesTag>;    ///< a pool of queries of one kind
 
 inline constexpr std::size_t max_color_attachments = 8;
-inline constexpr std::size_t max_bindings = 24;    ///< in one group
+inline constexpr std::size_t max_bindings = 24;     ///< in one group
 inline constexpr std::size_t max_push_bytes = 128;  ///< smallest limit of Vulkan, met on both backends
-inline constexpr std::size_t max_resources = 24;   ///< declared reads and writes of one pass
+inline constexpr std::size_t max_resources = 24;    ///< declared reads and writes of one pass
 
 // ---------------------------------------------------------------------------------------------------- device
 
 struct DeviceDesc {
-    std::string device = {};          ///< index ("0") or a part of the name; empty: the best one
-    bool validation = false;          ///< validation layer with synchronisation validation; GL debug output
+    std::string device = {};             ///< index ("0") or a part of the name; empty: the best one
+    bool validation = false;             ///< validation layer with synchronisation validation; GL debug output
     std::uint32_t frames_in_flight = 2;  ///< 1 … 4
-    bool gl_spirv = false;            ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
-    std::string pipeline_cache = {};  ///< file of the driver's compiled pipelines; empty: none is kept
-    bool count_api_calls = false;     ///< put a counting thunk before every API function: `Device::api_calls()`
+    bool gl_spirv = false;               ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
+    std::string pipeline_cache = {};     ///< file of the driver's compiled pipelines; empty: none is kept
+    bool count_api_calls = false;        ///< put a counting thunk before every API function: `Device::api_calls()`
     LogSink log = {};
 };
 
 /// What a device can do beyond the floor (tiers T0 and T1 of the design are the floor).
 struct DeviceInfo {
-    std::string backend;  ///< "vulkan", "opengl", "null"
-    std::string name;     ///< the device's own name
-    std::string driver;   ///< driver name and version
-    std::string api;      ///< API version
-    bool software = false;              ///< a CPU implementation
-    std::string missing;                ///< empty, or what keeps this device from being used
+    std::string backend;                 ///< "vulkan", "opengl", "null"
+    std::string name;                    ///< the device's own name
+    std::string driver;                  ///< driver name and version
+    std::string api;                     ///< API version
+    bool software = false;               ///< a CPU implementation
+    std::string missing;                 ///< empty, or what keeps this device from being used
     std::uint32_t max_texture_size = 0;  ///< [texel] 2D width and height
     std::uint32_t max_array_layers = 0;
     std::uint64_t max_storage_buffer_bytes = 0;
@@ -97,9 +97,9 @@ enum class TextureUsage : std::uint8_t {
 enum class TextureKind : std::uint8_t { flat, array, cube };
 
 struct TextureDesc {
-    Extent2D size = {};           ///< [texel] both > 0
-    std::uint32_t layers = 1;     ///< array layers; 6 for a cube
-    std::uint32_t mips = 1;       ///< 1 … floor(log2(max(size))) + 1
+    Extent2D size = {};        ///< [texel] both > 0
+    std::uint32_t layers = 1;  ///< array layers; 6 for a cube
+    std::uint32_t mips = 1;    ///< 1 … floor(log2(max(size))) + 1
     Format format = Format::rgba8_unorm;
     TextureKind kind = TextureKind::flat;  ///< what the shader sees: sampler2D, sampler2DArray, samplerCube
     TextureUsage usage = TextureUsage::sampled;
@@ -144,10 +144,10 @@ struct GroupLayout {
 
 struct Binding {
     std::uint32_t binding = 0;
-    Buffer buffer = {};        ///< for buffers: the whole of it
-    Texture texture = {};      ///< for textures
-    Sampler sampler = {};      ///< for sampled textures: combined with the texture
-    std::uint32_t mip = 0;     ///< storage textures: the level that is bound (all its layers)
+    Buffer buffer = {};     ///< for buffers: the whole of it
+    Texture texture = {};   ///< for textures
+    Sampler sampler = {};   ///< for sampled textures: combined with the texture
+    std::uint32_t mip = 0;  ///< storage textures: the level that is bound (all its layers)
 };
 struct GroupDesc {
     GroupSlot slot = GroupSlot::pass;
@@ -161,7 +161,15 @@ struct GroupDesc {
 enum class Compare : std::uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
 enum class Cull : std::uint8_t { none, back, front };
 enum class BlendFactor : std::uint8_t {
-    zero, one, src_alpha, one_minus_src_alpha, dst_alpha, one_minus_dst_alpha, src_color, one_minus_src_color, dst_color
+    zero,
+    one,
+    src_alpha,
+    one_minus_src_alpha,
+    dst_alpha,
+    one_minus_dst_alpha,
+    src_color,
+    one_minus_src_color,
+    dst_color
 };
 enum class BlendOp : std::uint8_t { add, min, max, reverse_subtract };
 
@@ -175,8 +183,9 @@ struct Blend {
     BlendOp alpha_op = BlendOp::add;
 };
 /// `C = src.rgb + (1 - src.a) dst.rgb`: compositing of premultiplied colour (Porter and Duff 1984, "over").
-inline constexpr Blend blend_premultiplied = {true, BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add,
-                                              BlendFactor::one, BlendFactor::one_minus_src_alpha, BlendOp::add};
+inline constexpr Blend blend_premultiplied = {true,         BlendFactor::one, BlendFactor::one_minus_src_alpha,
+                                              BlendOp::add, BlendFactor::one, BlendFactor::one_minus_src_alpha,
+                                              BlendOp::add};
 
 struct ColorTarget {
     Format format = Format::rgba8_unorm;
@@ -185,7 +194,16 @@ struct ColorTarget {
 };
 struct StencilFace {
     Compare compare = Compare::always;
-    enum class Op : std::uint8_t { keep, zero, replace, increment_clamp, decrement_clamp, invert, increment_wrap, decrement_wrap };
+    enum class Op : std::uint8_t {
+        keep,
+        zero,
+        replace,
+        increment_clamp,
+        decrement_clamp,
+        invert,
+        increment_wrap,
+        decrement_wrap
+    };
     Op fail = Op::keep, depth_fail = Op::keep, pass = Op::keep;
 };
 struct DepthStencil {
@@ -226,10 +244,10 @@ struct ComputePipelineDesc {
 
 /// How a pass uses a resource it does not attach.  Barriers follow from these declarations and from nothing else.
 enum class Access : std::uint8_t {
-    sampled,           ///< textures: texture(), texelFetch()
-    uniform_read,      ///< buffers
-    storage_read,      ///< buffers and storage textures
-    storage_write,     ///< the same; earlier content may be dropped by nobody, but is not read
+    sampled,        ///< textures: texture(), texelFetch()
+    uniform_read,   ///< buffers
+    storage_read,   ///< buffers and storage textures
+    storage_write,  ///< the same; earlier content may be dropped by nobody, but is not read
     storage_read_write,
     index_read,
     indirect_read,
@@ -243,8 +261,12 @@ struct ResourceUse {
     Access access = Access::sampled;
 };
 using Uses = SmallVector<ResourceUse, max_resources>;
-[[nodiscard]] constexpr ResourceUse use(Buffer buffer, Access access) { return {.buffer = buffer, .access = access}; }
-[[nodiscard]] constexpr ResourceUse use(Texture texture, Access access) { return {.texture = texture, .access = access}; }
+[[nodiscard]] constexpr ResourceUse use(Buffer buffer, Access access) {
+    return {.buffer = buffer, .access = access};
+}
+[[nodiscard]] constexpr ResourceUse use(Texture texture, Access access) {
+    return {.texture = texture, .access = access};
+}
 
 enum class Load : std::uint8_t { load, clear, discard };
 enum class Store : std::uint8_t { store, discard };
@@ -254,7 +276,7 @@ struct ColorAttachment {
     std::uint32_t mip = 0, layer = 0;
     Load load = Load::clear;
     Store store = Store::store;
-    float clear[4] = {0, 0, 0, 0};             ///< linear, also for sRGB formats
+    float clear[4] = {0, 0, 0, 0};               ///< linear, also for sRGB formats
     std::uint32_t clear_uint[4] = {0, 0, 0, 0};  ///< used instead for *_uint formats
 };
 struct DepthAttachment {
@@ -315,8 +337,8 @@ struct UniformSlice {
 };
 struct RecordSlice {
     std::uint32_t block = 0;
-    std::uint32_t first = 0;           ///< index of record 0: add it to `first_instance`
-    std::span<std::byte> bytes = {};   ///< write-combined memory: write it once, in order, and never read it
+    std::uint32_t first = 0;          ///< index of record 0: add it to `first_instance`
+    std::span<std::byte> bytes = {};  ///< write-combined memory: write it once, in order, and never read it
 };
 
 enum class QueryKind : std::uint8_t { timestamp, occlusion };

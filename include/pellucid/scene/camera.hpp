@@ -16,11 +16,11 @@ enum class Projection { perspective, orthographic };
 /// A glTF camera placed in the world.  Depth is reversed; a perspective far plane is infinitely far away.
 struct Camera {
     Projection projection = Projection::perspective;
-    double vertical_fov = 0.8;  ///< [rad] perspective: full angle, in (0, pi)
-    double half_width = 1;      ///< [m] orthographic: half the width of the view ("xmag"), > 0
-    double half_height = 1;     ///< [m] orthographic: half the height of the view ("ymag"), > 0
-    double near = 0.1;          ///< [m] > 0 for perspective, >= 0 for orthographic
-    double far = 0;             ///< [m] orthographic: > near; perspective: ignored (infinite)
+    double vertical_fov = 0.8;        ///< [rad] perspective: full angle, in (0, pi)
+    double half_width = 1;            ///< [m] orthographic: half the width of the view ("xmag"), > 0
+    double half_height = 1;           ///< [m] orthographic: half the height of the view ("ymag"), > 0
+    double near = 0.1;                ///< [m] > 0 for perspective, >= 0 for orthographic
+    double far = 0;                   ///< [m] orthographic: > near; perspective: ignored (infinite)
     glm::dmat4 world_from_view{1.0};  ///< rigid: rotation and translation only
     std::string name;
 };
@@ -54,7 +54,8 @@ struct ClipFromView {
     return clip;
 }
 
-/// A rigid `world_from_view` that stands at `eye` and looks at `target`; `up` must not be parallel to the line of sight.
+/// A rigid `world_from_view` that stands at `eye` and looks at `target`; `up` must not be parallel to the line of
+/// sight.
 [[nodiscard]] inline glm::dmat4 look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0, 1, 0}) {
     const glm::dvec3 back = glm::normalize(eye - target);
     const glm::dvec3 right = glm::normalize(glm::cross(up, back));

@@ -12,13 +12,13 @@ enum class LightKind : std::uint8_t { directional, point, spot };
 
 struct Light {
     LightKind kind = LightKind::point;
-    glm::vec3 color{1, 1, 1};       ///< linear, each >= 0
-    float intensity = 1;            ///< [lx] directional, [cd] point and spot; >= 0
-    float range = 0;                ///< [m] > 0; 0: unlimited
-    double inner_cone = 0;          ///< [rad] spot: half angle of full intensity, in [0, outer_cone)
+    glm::vec3 color{1, 1, 1};                ///< linear, each >= 0
+    float intensity = 1;                     ///< [lx] directional, [cd] point and spot; >= 0
+    float range = 0;                         ///< [m] > 0; 0: unlimited
+    double inner_cone = 0;                   ///< [rad] spot: half angle of full intensity, in [0, outer_cone)
     double outer_cone = 0.7853981633974483;  ///< [rad] spot: half angle of no intensity, in (0, pi/2]
-    glm::dvec3 position{0, 0, 0};   ///< [m] world
-    glm::dvec3 direction{0, 0, -1};  ///< world, unit: the way the light travels
+    glm::dvec3 position{0, 0, 0};            ///< [m] world
+    glm::dvec3 direction{0, 0, -1};          ///< world, unit: the way the light travels
     std::string name;
 };
 

@@ -43,11 +43,11 @@ struct Material {
     float roughness = 1;               ///< [0,1] perceptual; alpha of GGX is its square
     glm::vec3 emissive{0, 0, 0};       ///< [cd/m²] linear, strength of KHR_materials_emissive_strength included
     float normal_scale = 1;
-    float occlusion_strength = 1;      ///< [0,1]
-    float alpha_cutoff = 0.5f;         ///< for AlphaMode::mask
+    float occlusion_strength = 1;  ///< [0,1]
+    float alpha_cutoff = 0.5f;     ///< for AlphaMode::mask
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
-    bool unlit = false;                ///< KHR_materials_unlit
+    bool unlit = false;                     ///< KHR_materials_unlit
     TextureRef base_color_texture;          ///< sRGB colour, linear alpha
     TextureRef metallic_roughness_texture;  ///< linear: g roughness, b metallic
     TextureRef normal_texture;              ///< linear: tangent-space normal, [0,1] → [-1,1]

@@ -22,7 +22,7 @@ struct Mesh {
     std::vector<glm::vec2> uv1;        ///< or empty
     std::vector<glm::vec4> colors;     ///< linear straight RGBA in [0,1]; or empty
     std::vector<std::uint32_t> indices;
-    std::uint32_t material = 0;  ///< index into Scene::materials
+    std::uint32_t material = 0;                ///< index into Scene::materials
     glm::vec3 lower{0, 0, 0}, upper{0, 0, 0};  ///< [m] bounds in object space
     std::string name;
 };

@@ -27,15 +27,15 @@ struct TexturePlan {
         std::uint32_t layer = 0;
     };
     std::vector<TextureArrayPlan> arrays;
-    std::vector<Place> as_color;  ///< for each of Scene::textures
-    std::vector<Place> as_data;   ///< for each of Scene::textures
+    std::vector<Place> as_color;        ///< for each of Scene::textures
+    std::vector<Place> as_data;         ///< for each of Scene::textures
     std::vector<std::string> warnings;  ///< a sentence for every picture that had to be resized or re-sampled
 };
 
-/// Plans at most `max_arrays` (>= 2) arrays of at most `max_layers` layers.  Where a scene has more kinds (size × encoding ×
-/// sampler) than that, kinds are merged, most alike first, and each merge is a warning: pictures are then enlarged to
-/// the larger size of the two, or lose their own sampler.  Layers stay within the limit while any merge allows it; what
-/// fits in no way at all becomes the error of the texture's creation.
+/// Plans at most `max_arrays` (>= 2) arrays of at most `max_layers` layers.  Where a scene has more kinds (size ×
+/// encoding × sampler) than that, kinds are merged, most alike first, and each merge is a warning: pictures are then
+/// enlarged to the larger size of the two, or lose their own sampler.  Layers stay within the limit while any merge
+/// allows it; what fits in no way at all becomes the error of the texture's creation.
 [[nodiscard]] TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, std::uint32_t max_layers = 2048);
 
 // ------------------------------------------------------------------------------------------------------- body
@@ -90,7 +90,8 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
         };
         auto found = std::find_if(plan.arrays.begin(), plan.arrays.end(), fits);
         if (found == plan.arrays.end())
-            found = plan.arrays.insert(plan.arrays.end(), {.size = size, .srgb = w.srgb, .sampler = texture.sampler, .images = {}});
+            found = plan.arrays.insert(plan.arrays.end(),
+                                       {.size = size, .srgb = w.srgb, .sampler = texture.sampler, .images = {}});
         if (!contains(*found, texture.image)) found->images.push_back(texture.image);
     }
     while (plan.arrays.size() > max_arrays) {
@@ -98,7 +99,8 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
         std::uint32_t best = ~0u;
         for (std::size_t a = 0; a < plan.arrays.size(); ++a)
             for (std::size_t b = a + 1; b < plan.arrays.size(); ++b)
-                if (const std::uint32_t cost = detail::merge_cost(plan.arrays[a], plan.arrays[b], max_layers); cost < best)
+                if (const std::uint32_t cost = detail::merge_cost(plan.arrays[a], plan.arrays[b], max_layers);
+                    cost < best)
                     best = cost, best_a = a, best_b = b;
         if (best == ~0u) break;
         TextureArrayPlan& a = plan.arrays[best_a];
@@ -106,8 +108,8 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
         const Extent2D size{std::max(a.size.width, b.size.width), std::max(a.size.height, b.size.height)};
         plan.warnings.push_back("textures of " + std::to_string(a.size.width) + "x" + std::to_string(a.size.height) +
                                 " and " + std::to_string(b.size.width) + "x" + std::to_string(b.size.height) +
-                                " share one array of " + std::to_string(size.width) + "x" + std::to_string(size.height) +
-                                (a.sampler == b.sampler ? "" : " and one sampler") +
+                                " share one array of " + std::to_string(size.width) + "x" +
+                                std::to_string(size.height) + (a.sampler == b.sampler ? "" : " and one sampler") +
                                 ": the scene has more kinds of texture than the " + std::to_string(max_arrays) +
                                 " arrays");
         for (std::uint32_t image : b.images)
@@ -123,8 +125,7 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
                 const TextureArrayPlan& array = plan.arrays[a];
                 if (array.srgb != w.srgb || (pass == 0 && !(array.sampler == texture.sampler))) continue;
                 const auto at = std::find(array.images.begin(), array.images.end(), texture.image);
-                if (at != array.images.end())
-                    place = {a, static_cast<std::uint32_t>(at - array.images.begin())};
+                if (at != array.images.end()) place = {a, static_cast<std::uint32_t>(at - array.images.begin())};
             }
     }
     return plan;
