@@ -224,8 +224,9 @@ TEMPLATE_LIST_TEST_CASE("both layouts hold the same surface", "[gpu]", test::Bac
             const glm::dvec3 stored(half_to_float(halves[0]), half_to_float(halves[1]), half_to_float(halves[2]));
             worst_angle = std::max(worst_angle, test::degrees_between(stored, normal(t)));
             const auto m = material.at<std::uint32_t>(x, y);
-            // The classic target's code is rounded by the driver: an H200 turns 127.5 into 127.
-            REQUIRE(std::abs(int(m & 0xFFu) - int(t.material >> 16u & 0xFFu)) <= 1);
+            // The classic target's code is rounded by the driver, and 127.5 is a tie: an H200 gives 127, Mesa 128.
+            const int codes_apart = std::abs(int(m & 0xFFu) - int(t.material >> 16u & 0xFFu));
+            REQUIRE(codes_apart <= (device->info().software ? 0 : 1));
             worst_roughness =
                 std::max(worst_roughness, std::abs((m >> 8u & 0xFFu) / 255.0 - (t.material & 0xFFFFu) / 65535.0));
             const auto p = position.at<std::array<float, 4>>(x, y);
