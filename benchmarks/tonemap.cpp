@@ -96,24 +96,22 @@ struct Measure {
                                      .usage = rhi::TextureUsage::storage | rhi::TextureUsage::copy_source,
                                      .debug_name = "display"};
         PELLUCID_OWN(display, device, device.make_texture(shown));
-        PELLUCID_TRY(const auto pass, TonemapPass<B>::create(device, hdr, display, size));
         PELLUCID_TRY(const CopyFloor<B> copy, CopyFloor<B>::create(device, settings));
 
-        rhi::UniformSlice frames[std::size(curves)];
+        rhi::UniformSlice frame;
+        std::vector<TonemapPass<B>> passes;
+        passes.reserve(std::size(curves));  // works point into it
         const auto begin = [&](rhi::CommandsFor<B>& cmd) -> Result<void> {
-            for (const ToneCurve curve : curves) {
-                gpu::FrameParams frame{};
-                frame.exposure = 1;
-                frame.tonemap = static_cast<std::uint32_t>(curve);
-                PELLUCID_TRY(frames[static_cast<std::size_t>(curve)], cmd.upload_uniforms(rhi::bytes_of(frame)));
-            }
+            gpu::FrameParams params{};
+            params.exposure = 1;
+            PELLUCID_TRY(frame, cmd.upload_uniforms(rhi::bytes_of(params)));
             return {};
         };
         std::vector<Work<B>> works = {copy.work()};
         for (const ToneCurve curve : curves) {
-            const auto record = [&pass, &frame = frames[static_cast<std::size_t>(curve)]](rhi::CommandsFor<B>& cmd) {
-                pass.record(cmd, frame);
-            };
+            PELLUCID_TRY(auto made, TonemapPass<B>::create(device, curve, hdr, display, size));
+            passes.push_back(std::move(made));
+            const auto record = [&pass = passes.back(), &frame](rhi::CommandsFor<B>& cmd) { pass.record(cmd, frame); };
             const auto once = [&](rhi::CommandsFor<B>& cmd) -> Result<void> {
                 PELLUCID_CHECK(begin(cmd));
                 record(cmd);

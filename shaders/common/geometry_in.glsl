@@ -8,7 +8,10 @@ layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec4 in_tangent;
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec4 in_color;
-layout(location = 4) flat in uvec3 in_draw;  // material, PELLUCID_DRAW_* flags, global id of the draw's triangle 0
+layout(location = 4) flat in uvec4 in_draw;  // material, PELLUCID_DRAW_*, id of the draw's triangle 0, PELLUCID_MATERIAL_*
+layout(location = 5) flat in vec4 in_base_color;
+layout(location = 6) flat in vec4 in_factors;   // metallic, roughness, alpha cutoff, occlusion strength
+layout(location = 7) flat in vec4 in_emissive;  // and the normal map's scale
 
 Attributes fragment_attributes() {
     Attributes a;
@@ -21,4 +24,21 @@ Attributes fragment_attributes() {
     a.front = gl_FrontFacing != ((in_draw.y & PELLUCID_DRAW_MIRRORED) != 0u);
     return a;
 }
+
+// The draw's material; only its textures are looked up in the table.
+MaterialRecord fragment_material() {
+    MaterialRecord m;
+    if (needs(PELLUCID_NEED_TEXTURES)) m = materials[in_draw.x];
+    m.base_color = in_base_color;
+    m.metallic = in_factors.x;
+    m.roughness = in_factors.y;
+    m.alpha_cutoff = in_factors.z;
+    m.occlusion_strength = in_factors.w;
+    m.emissive = in_emissive.xyz;
+    m.normal_scale = in_emissive.w;
+    m.flags = in_draw.w;
+    return m;
+}
+
+Surface fragment_surface() { return load_surface(fragment_material(), fragment_attributes()); }
 #endif

@@ -7,7 +7,7 @@
 #include "common/lighting.glsl"
 
 vec4 shade_fragment() {
-    Surface s = load_surface(materials[in_draw.x], fragment_attributes());
+    Surface s = fragment_surface();
     EXACT vec3 radiance = s.emissive;
     if (!s.unlit) {
         vec3 p = view_from_depth(gl_FragCoord.xy, gl_FragCoord.z);

@@ -75,6 +75,7 @@ vec3 unit_or(vec3 v, vec3 otherwise) {
 
 // Normal mapping with the glTF convention: bitangent = w cross(normal, tangent), all three interpolated, normalised once.
 vec3 shading_normal(MaterialRecord m, Attributes a) {
+    if (!needs(PELLUCID_NEED_NORMALS)) return vec3(0.0, 0.0, 1.0);
     vec3 n = unit_or(a.normal, vec3(0.0, 0.0, 1.0));
     if (needs(PELLUCID_NEED_NORMAL_MAPS) && m.normal_texture.place != 0u) {
         EXACT vec3 t = sample_use(m.normal_texture, a, vec4(0.5, 0.5, 1.0, 1.0)).xyz * 2.0 - 1.0;

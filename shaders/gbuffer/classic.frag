@@ -14,7 +14,7 @@ layout(location = 3) out vec4 out_material;
 layout(location = 4) out vec4 out_emissive;
 
 void main() {
-    Surface s = load_surface(materials[in_draw.x], fragment_attributes());
+    Surface s = fragment_surface();
     if (s.discarded) discard;
     EXACT vec3 world = world_from_view(view_from_depth(gl_FragCoord.xy, gl_FragCoord.z)) + frame.camera_position;
     out_position = vec4(world, 1.0);

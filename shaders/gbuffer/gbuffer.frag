@@ -13,7 +13,7 @@ layout(location = 2) out uint out_material;
 layout(location = 3) out vec4 out_emissive;
 
 void main() {
-    Surface s = load_surface(materials[in_draw.x], fragment_attributes());
+    Surface s = fragment_surface();
     if (s.discarded) discard;
     out_normal = octahedral_encode(s.normal);
     out_base = vec4(s.base, s.occlusion);

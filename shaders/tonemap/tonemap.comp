@@ -1,12 +1,14 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
-// The last pass: exposure, tone curve, sRGB encoding.  Curves as in include/pellucid/reference/tonemap.hpp.
+// The last pass: exposure, tone curve, sRGB encoding.  Curves as in include/pellucid/reference/tonemap.hpp.  The curve is
+// a constant of the pipeline: a driver that masks instead of branching would otherwise compute all of them.
 #include "common/prelude.glsl"
 #include "common/srgb.glsl"
 #include "pellucid/gpu/scene.h"
 #include "pellucid/gpu/tonemap.h"
 
+SPEC_CONSTANT(2, CURVE, PELLUCID_TONEMAP_NEUTRAL);
 FRAME_BLOCK(FrameBlock) { FrameParams frame; };
 PASS_TEXTURE(PELLUCID_TONEMAP_INPUT) sampler2D hdr;
 PASS_IMAGE(PELLUCID_TONEMAP_OUTPUT, rgba8) writeonly image2D display;
@@ -57,9 +59,9 @@ void main() {
     c = vec3(c.r > 0.0 ? min(c.r, 65504.0) : 0.0, c.g > 0.0 ? min(c.g, 65504.0) : 0.0,
              c.b > 0.0 ? min(c.b, 65504.0) : 0.0);
     c *= frame.exposure;
-    if (frame.tonemap == PELLUCID_TONEMAP_REINHARD) c = c / (c + 1.0);
-    else if (frame.tonemap == PELLUCID_TONEMAP_NEUTRAL) c = neutral(c);
-    else if (frame.tonemap == PELLUCID_TONEMAP_ACES) c = aces(c);
-    else if (frame.tonemap == PELLUCID_TONEMAP_AGX) c = agx(c);
+    if (CURVE == PELLUCID_TONEMAP_REINHARD) c = c / (c + 1.0);
+    else if (CURVE == PELLUCID_TONEMAP_NEUTRAL) c = neutral(c);
+    else if (CURVE == PELLUCID_TONEMAP_ACES) c = aces(c);
+    else if (CURVE == PELLUCID_TONEMAP_AGX) c = agx(c);
     imageStore(display, at, vec4(srgb_encode(clamp(c, 0.0, 1.0)), 1.0));
 }

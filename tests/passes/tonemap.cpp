@@ -46,11 +46,10 @@ Image8 mapped(typename B::Device& device, const Image<std::uint16_t>& in, ToneCu
         own(device, device.make_texture({.size = size,
                                          .usage = rhi::TextureUsage::storage | rhi::TextureUsage::copy_source,
                                          .debug_name = "display"}));
-    const auto pass = test::must(TonemapPass<B>::create(device, hdr, display, size));
+    const auto pass = test::must(TonemapPass<B>::create(device, curve, hdr, display, size));
     test::run(device, [&](auto& cmd) {
         gpu::FrameParams frame{};
         frame.exposure = std::exp2(ev);
-        frame.tonemap = static_cast<std::uint32_t>(curve);
         pass.record(cmd, test::must(cmd.upload_uniforms(rhi::bytes_of(frame))));
     });
     return test::read<std::uint8_t>(device, display, size, 4);

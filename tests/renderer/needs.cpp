@@ -52,7 +52,7 @@ constexpr std::uint64_t pixels = 32 * 16;
 }  // namespace
 
 TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
-    const std::uint32_t base = PELLUCID_NEED_DIRECTIONAL;
+    const std::uint32_t base = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_NORMALS;
     CHECK(mask(plain()) == base);
     struct Case {
         const char* what;
@@ -81,7 +81,6 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
              s.materials[0].emissive = {0, 0.1f, 0};
          },
          PELLUCID_NEED_EMISSIVE},
-        {"unlit", [](Scene& s) { s.materials[0].unlit = true; }, PELLUCID_NEED_EMISSIVE | PELLUCID_NEED_UNLIT},
         {"mask", [](Scene& s) { s.materials[0].alpha_mode = AlphaMode::mask; }, PELLUCID_NEED_ALPHA_MASK},
         {"vertex colours",
          [](Scene& s) {
@@ -96,11 +95,19 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
         INFO(c.what);
         CHECK(mask(scene) == (base | c.adds));
         scene.instances.clear();  // a material that is not drawn needs nothing
-        CHECK((mask(scene) & ~(base | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) == 0u);
+        CHECK((mask(scene) & ~(PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) == 0u);
     }
+    // Normals are wanted where light falls on a lit surface, or where somebody reads the G-buffer.
+    Scene unlit = plain();
+    unlit.materials[0].unlit = true;
+    const std::uint32_t emits = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_EMISSIVE | PELLUCID_NEED_UNLIT;
+    CHECK(mask(unlit) == emits);
+    CHECK(mask(unlit, {.keep_gbuffer = true}) == (emits | PELLUCID_NEED_NORMALS));
+    unlit.materials[0].alpha_mode = AlphaMode::blend;
+    CHECK(mask(unlit, {.keep_gbuffer = true}) == emits);
     Scene dark = plain();
     dark.lights.clear();
-    CHECK(mask(dark) == (PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT));
+    CHECK(mask(dark) == (base | PELLUCID_NEED_AMBIENT));
     CHECK(mask(dark, {.default_light = false}) == 0u);
     CHECK(mask(dark, {.every_need = true}) == PELLUCID_NEED_ALL);
     // Translucent surfaces that are not drawn need nothing either.
@@ -108,7 +115,7 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
     ghost.materials[0].alpha_mode = AlphaMode::blend;
     ghost.materials[0].emissive = {1, 1, 1};
     CHECK(scene_needs(ghost, {.transparency = Transparency::none}).translucent == false);
-    CHECK(mask(ghost, {.transparency = Transparency::none}) == base);
+    CHECK(mask(ghost, {.transparency = Transparency::none}) == PELLUCID_NEED_DIRECTIONAL);
     CHECK(scene_needs(ghost, {}).translucent);
     CHECK_FALSE(scene_needs(ghost, {}).opaque);
     CHECK_FALSE(scene_needs(ghost, {}).emissive_target);  // only opaque surfaces store what they emit

@@ -27,7 +27,8 @@
 #define PELLUCID_NEED_UNLIT 512u
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
-#define PELLUCID_NEED_ALL 4095u
+#define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
+#define PELLUCID_NEED_ALL 8191u
 
 // Specialisation constant 1: the reflectance model.
 #define PELLUCID_BRDF_GLTF 0u
@@ -44,13 +45,13 @@ struct FrameParams {
     vec4 world_x;  // columns of world_from_view (its rotation); w unused
     vec4 world_y;
     vec4 world_z;
-    vec4 clip_scale;       // sx, sy, ox, oy of ClipFromView
-    vec4 clip_depth;       // zz, zw, wz, ww of ClipFromView
-    vec4 pixel;            // 2/width, 2/height, width, height
-    vec3 ambient;          // [cd/m²] constant radiance from everywhere
-    float exposure;        // factor before the tone map
-    vec3 background;       // linear radiance where nothing is
-    uint tonemap;          // which curve (gpu/tonemap.h)
+    vec4 clip_scale;  // sx, sy, ox, oy of ClipFromView
+    vec4 clip_depth;  // zz, zw, wz, ww of ClipFromView
+    vec4 pixel;       // 2/width, 2/height, width, height
+    vec3 ambient;     // [cd/m²] constant radiance from everywhere
+    float exposure;   // factor before the tone map
+    vec3 background;  // linear radiance where nothing is
+    uint reserved;
     vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
     uvec4 light_ends;  // one past the last directional, point and spot light (they are stored in this order)

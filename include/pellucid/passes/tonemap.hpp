@@ -22,14 +22,14 @@ enum class ToneCurve : std::uint8_t {
     return names[static_cast<std::size_t>(c)];
 }
 
-/// `display = sRGB(curve(hdr · exposure))`; exposure and curve are in the frame's FrameParams.  NaN and negative values
-/// become 0, infinities the largest value.  Reference: reference/tonemap.hpp.  Shader: shaders/tonemap.
+/// `display = sRGB(curve(hdr · exposure))`; the exposure is in the frame's FrameParams.  NaN and negative values become
+/// 0, infinities the largest value.  Reference: reference/tonemap.hpp.  Shader: shaders/tonemap.
 template <rhi::Backend B>
 class TonemapPass {
 public:
     /// `hdr`: rgba16_float, sampled.  `display`: rgba8_unorm, storage, the same size; its bytes are sRGB codes.
-    [[nodiscard]] static Result<TonemapPass> create(typename B::Device& device, rhi::Texture hdr, rhi::Texture display,
-                                                    Extent2D size);
+    [[nodiscard]] static Result<TonemapPass> create(typename B::Device& device, ToneCurve curve, rhi::Texture hdr,
+                                                    rhi::Texture display, Extent2D size);
     /// Records one compute pass that writes every pixel of `display`.  Precondition: no pass is open.
     void record(typename B::Commands& cmd, rhi::UniformSlice frame) const;
 
@@ -44,8 +44,8 @@ private:
 // ------------------------------------------------------------------------------------------------------- bodies
 
 template <rhi::Backend B>
-Result<TonemapPass<B>> TonemapPass<B>::create(typename B::Device& device, rhi::Texture hdr, rhi::Texture display,
-                                              Extent2D size) {
+Result<TonemapPass<B>> TonemapPass<B>::create(typename B::Device& device, ToneCurve curve, rhi::Texture hdr,
+                                              rhi::Texture display, Extent2D size) {
     TonemapPass pass;
     pass.hdr_ = hdr;
     pass.display_ = display;
@@ -64,9 +64,11 @@ Result<TonemapPass<B>> TonemapPass<B>::create(typename B::Device& device, rhi::T
                            .bindings = {{.binding = PELLUCID_TONEMAP_OUTPUT, .texture = display},
                                         {.binding = PELLUCID_TONEMAP_INPUT, .texture = hdr, .sampler = pass.sampler_}},
                            .debug_name = "tonemap"}));
-    PELLUCID_OWN(pass.pipeline_, device,
-                 device.make_pipeline(rhi::ComputePipelineDesc{
-                     .compute = &shaders::tonemap_comp, .pass_group = layout, .debug_name = "tonemap"}));
+    const rhi::SpecConstant constants[] = {{2, static_cast<std::uint32_t>(curve)}};
+    PELLUCID_OWN(
+        pass.pipeline_, device,
+        device.make_pipeline(rhi::ComputePipelineDesc{
+            .compute = &shaders::tonemap_comp, .constants = constants, .pass_group = layout, .debug_name = "tonemap"}));
     return pass;
 }
 

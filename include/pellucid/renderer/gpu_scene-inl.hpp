@@ -228,7 +228,6 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
     if (ambient_) f.ambient = {default_ambient, default_ambient, default_ambient};
     f.exposure = std::exp2(settings.exposure_ev);
     f.background = to_gpu(settings.background);
-    f.tonemap = static_cast<std::uint32_t>(settings.tonemap);
     f.camera_position = to_gpu(glm::dvec3(w[3]));
     f.draw_count = instances();
     f.light_ends = light_ends_;

@@ -32,6 +32,7 @@ inline constexpr float default_ambient = 0.25f;
 [[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {
     SceneNeeds needs;
     auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
+    bool lit = false;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         const Material& m = scene.materials[mesh.material];
@@ -42,6 +43,7 @@ inline constexpr float default_ambient = 0.25f;
         needs.emissive_target = needs.emissive_target || (emits && !blend);
         mark(PELLUCID_NEED_EMISSIVE, emits);
         mark(PELLUCID_NEED_UNLIT, m.unlit);
+        lit = lit || !m.unlit;
         mark(PELLUCID_NEED_ALPHA_MASK, m.alpha_mode == AlphaMode::mask);
         mark(PELLUCID_NEED_NORMAL_MAPS, m.normal_texture.used() && !m.unlit);
         mark(PELLUCID_NEED_OCCLUSION, m.occlusion_texture.used());
@@ -58,6 +60,8 @@ inline constexpr float default_ambient = 0.25f;
         mark(PELLUCID_NEED_SPOTS, light.kind == LightKind::spot);
     }
     if (scene.lights.empty() && settings.default_light) needs.mask |= PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT;
+    constexpr std::uint32_t lights = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS;
+    mark(PELLUCID_NEED_NORMALS, (lit && needs.has(lights)) || (needs.opaque && settings.keep_gbuffer));
     if (settings.every_need) {
         needs.mask = PELLUCID_NEED_ALL;
         needs.emissive_target = true;

@@ -155,7 +155,8 @@ void Renderer<B>::declare_tonemap() {
     graph_.add(
         {.name = "tonemap", .reads = {hdr_}, .writes = {display_}},
         [this](typename B::Device& device) -> Result<void> {
-            PELLUCID_TRY(tonemap_pass_, TonemapPass<B>::create(device, graph_[hdr_], graph_[display_], settings_.size));
+            PELLUCID_TRY(tonemap_pass_, TonemapPass<B>::create(device, settings_.tonemap, graph_[hdr_],
+                                                               graph_[display_], settings_.size));
             ++pipelines_;
             return {};
         },

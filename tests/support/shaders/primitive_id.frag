@@ -7,6 +7,6 @@
 layout(location = 0) out uint out_primitive;
 
 void main() {
-    if (load_surface(materials[in_draw.x], fragment_attributes()).discarded) discard;
+    if (fragment_surface().discarded) discard;
     out_primitive = in_draw.z + uint(gl_PrimitiveID);
 }
