@@ -40,5 +40,8 @@ MaterialRecord fragment_material() {
     return m;
 }
 
+// Grows with the draw order over the whole frame; 0 < order.
+uint fragment_order() { return in_draw.z + uint(gl_PrimitiveID) + 1u; }
+
 Surface fragment_surface() { return load_surface(fragment_material(), fragment_attributes()); }
 #endif

@@ -100,7 +100,7 @@ Differences rebuild(typename B::Device& device, Scene scene) {
     CullVariants<B> id_pipelines;
     const rhi::SpecConstant constants[] = {{0, needs.mask}};
     test::must(id_pipelines.create(device,
-                                   {.vertex = &shaders::gbuffer_vert,
+                                   {.vertex = &shaders::scene_vert,
                                     .fragment = &shaders::test_primitive_id_frag,
                                     .constants = constants,
                                     .scene_group = scene_group_layout(),

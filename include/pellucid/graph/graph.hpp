@@ -4,11 +4,13 @@
 /// The frame as a list of passes with declared reads and writes: passes that nothing reads are culled before anything
 /// of theirs is built, and textures whose lifetimes do not overlap share memory.
 #include <pellucid/core/small_vector.hpp>
+#include <pellucid/graph/frame.hpp>
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/unique.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace pellucid {
@@ -24,6 +26,7 @@ struct GraphPassDesc {
     const char* name = "pass";
     SmallVector<GraphTexture, 8> reads = {};
     SmallVector<GraphTexture, 8> writes = {};  ///< written; also listed in `reads` where earlier content matters
+    bool live = false;  ///< runs even if nothing reads its textures: it writes buffers that the graph does not know
 };
 
 /// What became of a pass or a texture, for the frame's statistics.
@@ -46,7 +49,8 @@ public:
     [[nodiscard]] GraphTexture texture(const rhi::TextureDesc& desc);
 
     /// Adds a pass.  `create(device) -> Result<void>` builds its pipelines and groups, only if the pass is live, after
-    /// all textures exist; `record(commands)` records it every frame.
+    /// all textures exist; `record(commands)` records it every frame, or `record(frame) -> Result<void>`, which may
+    /// flush the frame to see on the CPU what the GPU found.
     template <class Create, class Record>
     void add(const GraphPassDesc& desc, Create create, Record record);
 
@@ -59,9 +63,10 @@ public:
     /// Culls, allocates and creates.  Errors: those of texture creation and of the passes' own creation.
     [[nodiscard]] Result<void> compile(typename B::Device& device);
 
-    /// Records every live pass.  `around(name, record)` is called for each and must call `record()` once.
+    /// Records every live pass into an open frame.  `around(name, record)` is called for each and must call `record()`
+    /// once.  Errors: those of the passes; what comes after is not recorded then.
     template <class Around>
-    void execute(typename B::Commands& cmd, Around&& around);
+    [[nodiscard]] Result<void> execute(Frame<B>& frame, Around&& around);
 
     [[nodiscard]] rhi::Texture operator[](GraphTexture t) const { return textures_[t.index].physical; }
     [[nodiscard]] const std::vector<PassReport>& passes() const noexcept { return reports_; }
@@ -72,7 +77,7 @@ private:
         explicit Node(const GraphPassDesc& d) : desc(d) {}
         virtual ~Node() = default;
         virtual Result<void> create(typename B::Device& device) = 0;
-        virtual void record(typename B::Commands& cmd) = 0;
+        virtual Result<void> record(Frame<B>& frame) = 0;
         GraphPassDesc desc;
         bool live = false;
     };
@@ -116,7 +121,14 @@ void Graph<B>::add(const GraphPassDesc& desc, Create create, Record record) {
     struct Made final : Node {
         Made(const GraphPassDesc& d, Create c, Record r) : Node(d), create_(std::move(c)), record_(std::move(r)) {}
         Result<void> create(typename B::Device& device) override { return create_(device); }
-        void record(typename B::Commands& cmd) override { record_(cmd); }
+        Result<void> record(Frame<B>& frame) override {
+            if constexpr (std::is_invocable_v<Record&, Frame<B>&>) {
+                return record_(frame);
+            } else {
+                record_(frame.commands());
+                return {};
+            }
+        }
         Create create_;
         Record record_;
     };
@@ -128,6 +140,7 @@ void Graph<B>::cull() {
     std::vector<bool> wanted(textures_.size(), false);
     for (const GraphTexture t : nodes_kept_) wanted[t.index] = true;
     for (auto node = nodes_.rbegin(); node != nodes_.rend(); ++node) {
+        (*node)->live = (*node)->desc.live;
         for (const GraphTexture t : (*node)->desc.writes) (*node)->live = (*node)->live || wanted[t.index];
         if (!(*node)->live) continue;
         // What this pass writes without reading it, nobody needs to have written before.
@@ -194,9 +207,14 @@ Result<void> Graph<B>::compile(typename B::Device& device) {
 
 template <rhi::Backend B>
 template <class Around>
-void Graph<B>::execute(typename B::Commands& cmd, Around&& around) {
-    for (const auto& node : nodes_)
-        if (node->live) around(node->desc.name, [&] { node->record(cmd); });
+Result<void> Graph<B>::execute(Frame<B>& frame, Around&& around) {
+    for (const auto& node : nodes_) {
+        if (!node->live) continue;
+        Result<void> recorded;
+        around(node->desc.name, [&] { recorded = node->record(frame); });
+        PELLUCID_CHECK(std::move(recorded));
+    }
+    return {};
 }
 
 }  // namespace pellucid

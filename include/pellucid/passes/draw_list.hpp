@@ -6,6 +6,7 @@
 #include <pellucid/gpu/scene.h>
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/unique.hpp>
+#include <pellucid/shaders/scene.hpp>
 #include <span>
 
 namespace pellucid {
@@ -56,16 +57,18 @@ struct CullVariants {
     [[nodiscard]] rhi::Pipeline operator[](rhi::Cull cull) const { return pipelines[static_cast<std::size_t>(cull)]; }
 };
 
-/// Draws `items` in order with the scene bound, changing pipelines only where the culling changes.
+/// Draws `items` in order with the scene bound, changing pipelines only where the culling changes.  `pass_group` is
+/// bound too, where the pipelines have one.
 template <rhi::Backend B>
 void draw_items(typename B::Commands& cmd, const CullVariants<B>& variants, const SceneBinding& scene,
-                std::span<const DrawItem> items) {
+                std::span<const DrawItem> items, rhi::Group pass_group = {}) {
     rhi::Pipeline bound;
     for (const DrawItem& item : items) {
         if (const rhi::Pipeline wanted = variants[item.cull]; wanted != bound) {
             cmd.bind_pipeline(wanted);
             if (!bound) {
                 cmd.bind_frame(scene.frame, scene.records);
+                if (pass_group) cmd.bind_group(pass_group);
                 cmd.bind_group(scene.group);
                 cmd.bind_index_buffer(scene.indices);
             }

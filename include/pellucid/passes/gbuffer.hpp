@@ -67,7 +67,7 @@ Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const 
     pass.emissive_ = desc.emissive;
     const bool compact = desc.layout == GBufferLayout::compact;
     const rhi::SpecConstant constants[] = {{0, desc.needs}};
-    rhi::GraphicsPipelineDesc pipeline{.vertex = &shaders::gbuffer_vert,
+    rhi::GraphicsPipelineDesc pipeline{.vertex = &shaders::scene_vert,
                                        .fragment = compact ? &shaders::gbuffer_frag : &shaders::gbuffer_classic_frag,
                                        .constants = constants,
                                        .scene_group = scene_group_layout(),

@@ -82,7 +82,7 @@ Result<SortedForwardPass<B>> SortedForwardPass<B>::create(typename B::Device& de
     const rhi::SpecConstant constants[] = {{0, desc.needs}, {1, static_cast<std::uint32_t>(desc.brdf)}};
     PELLUCID_CHECK(pass.pipelines_.create(
         device,
-        {.vertex = &shaders::sorted_forward_vert,
+        {.vertex = &shaders::scene_vert,
          .fragment = desc.exact ? &shaders::sorted_forward_frag_exact : &shaders::sorted_forward_frag,
          .constants = constants,
          .scene_group = scene_group_layout(),

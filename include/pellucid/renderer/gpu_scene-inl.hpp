@@ -107,7 +107,10 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         p.translucent = blend;
         mirrored_.push_back(mirrored ? 1 : 0);
         auto bit = [](rhi::Cull cull) { return 1u << static_cast<std::uint32_t>(cull); };
-        if (blend) {
+        if (blend && any_order(settings.transparency)) {
+            translucent_culls_ |= bit(p.item.cull);
+            translucent_.push_back(p.item);
+        } else if (blend) {
             // Double-sided translucents are drawn as back faces, then front faces.
             translucent_culls_ |=
                 material.double_sided ? bit(rhi::Cull::front) | bit(rhi::Cull::back) : bit(p.item.cull);
@@ -118,7 +121,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         }
         placed_.push_back(p);
     }
-    translucent_.reserve(2 * sorted_.size());
+    if (!sorted_.empty()) translucent_.reserve(2 * sorted_.size());
 }
 
 template <rhi::Backend B>
@@ -248,6 +251,7 @@ Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& c
         std::memcpy(out, &record, sizeof record);
         out += sizeof record;
     }
+    if (sorted_.empty()) return {};
     for (SortedItem& item : sorted_)
         item.view_depth = -(view_from_world * glm::dvec4(placed_[item.draw.record].center, 1)).z;
     sort_back_to_front(sorted_);

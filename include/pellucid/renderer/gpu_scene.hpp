@@ -32,7 +32,8 @@ public:
     /// What passes bind; valid after begin_frame, for this frame.
     [[nodiscard]] const SceneBinding& binding() const noexcept { return binding_; }
     [[nodiscard]] std::span<const DrawItem> opaque() const noexcept { return opaque_; }
-    [[nodiscard]] std::span<const DrawItem> translucent() const noexcept { return translucent_; }  ///< back to front
+    /// Back to front, back and front faces apart; in the order of the scene for methods that sort fragments.
+    [[nodiscard]] std::span<const DrawItem> translucent() const noexcept { return translucent_; }
     [[nodiscard]] std::uint32_t opaque_culls() const noexcept { return opaque_culls_; }
     [[nodiscard]] std::uint32_t translucent_culls() const noexcept { return translucent_culls_; }
     [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }

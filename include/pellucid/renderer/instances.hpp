@@ -11,6 +11,9 @@
     how template class GBufferPass<B>;       \
     how template class LightingPass<B>;      \
     how template class SortedForwardPass<B>; \
+    how template class LayerCountPass<B>;    \
+    how template class AbufferPass<B>;       \
     how template class TonemapPass<B>;       \
     how template class GpuScene<B>;          \
+    how template class Translucent<B>;       \
     how template class Renderer<B>;

@@ -26,7 +26,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     needs_ = scene_needs(scene, settings_);
     warnings_ = scene.warnings;
     PELLUCID_TRY(scene_, GpuScene<B>::create(*device_, scene, settings_));
-    PELLUCID_TRY(timer_, measure::GpuTimer<B>::create(*device_));
+    PELLUCID_TRY(clock_, FrameClock<B>::create(*device_));
 
     using enum rhi::TextureUsage;
     auto target = [&](rhi::Format format, rhi::TextureUsage usage, const char* debug_name) {
@@ -34,7 +34,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     };
     const bool fragment = settings_.shading == ShadingStage::fragment;
     rhi::TextureUsage hdr_usage = sampled | copy_source | (fragment ? attachment : storage);
-    if (needs_.translucent || !needs_.opaque) hdr_usage |= attachment;
+    if (needs_.translucent || !needs_.opaque) hdr_usage |= attachment | storage;
     hdr_ = target(rhi::Format::rgba16_float, hdr_usage, "hdr");
     display_ = target(rhi::Format::rgba8_unorm, storage | copy_source, "display");
     if (needs_.opaque || needs_.translucent)
@@ -44,7 +44,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
         declare_opaque();
     else
         declare_background();
-    declare_translucent();
+    translucent_.declare(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
     declare_tonemap();
     graph_.keep(hdr_);
     graph_.keep(display_);
@@ -127,30 +127,6 @@ void Renderer<B>::declare_background() {
 }
 
 template <rhi::Backend B>
-void Renderer<B>::declare_translucent() {
-    if (!needs_.translucent) {
-        graph_.leave_out("sorted_forward", settings_.transparency == Transparency::none
-                                               ? "transparency is switched off"
-                                               : "the scene has no translucent surface");
-        return;
-    }
-    graph_.add(
-        {.name = "sorted_forward", .reads = {hdr_, depth_}, .writes = {hdr_}},
-        [this](typename B::Device& device) -> Result<void> {
-            PELLUCID_TRY(sorted_pass_, SortedForwardPass<B>::create(device, {.brdf = settings_.brdf,
-                                                                             .needs = needs_.mask,
-                                                                             .culls = scene_->translucent_culls(),
-                                                                             .exact = settings_.exact}));
-            pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->translucent_culls()));
-            return {};
-        },
-        [this](typename B::Commands& cmd) {
-            sorted_pass_->record(cmd, graph_[hdr_], graph_[depth_], settings_.size, scene_->binding(),
-                                 scene_->translucent());
-        });
-}
-
-template <rhi::Backend B>
 void Renderer<B>::declare_tonemap() {
     graph_.add(
         {.name = "tonemap", .reads = {hdr_}, .writes = {display_}},
@@ -165,17 +141,14 @@ void Renderer<B>::declare_tonemap() {
 
 template <rhi::Backend B>
 Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
-    typename B::Commands* cmd = nullptr;
-    PELLUCID_TRY(cmd, device_->begin_frame());
-    timer_->begin_frame(*cmd);
-    PELLUCID_CHECK(scene_->begin_frame(*cmd, camera, settings_));
-    graph_.execute(*cmd, [&](const char* name, auto&& record) {
-        const auto scope = timer_->scope(*cmd, name);
+    RenderFrame<B> frame(*device_, *scene_, *clock_, camera, settings_);
+    PELLUCID_CHECK(frame.open());
+    PELLUCID_CHECK(graph_.execute(frame, [&](const char* name, auto&& record) {
+        frame.begin_scope(name);
         record();
-    });
-    PELLUCID_TRY(last_, device_->submit());
-    timer_->end_frame(last_);
-    return last_;
+        frame.end_scope();
+    }));
+    return frame.close();
 }
 
 template <rhi::Backend B>
@@ -219,7 +192,7 @@ template <rhi::Backend B>
 RenderStats Renderer<B>::stats() const {
     RenderStats stats{.passes = graph_.passes(),
                       .resources = graph_.textures(),
-                      .pipelines = pipelines_,
+                      .pipelines = pipelines_ + translucent_.pipelines(),
                       .draws = static_cast<std::uint32_t>(scene_->opaque().size() + scene_->translucent().size()),
                       .triangles = scene_->triangles(),
                       .lights = scene_->lights(),

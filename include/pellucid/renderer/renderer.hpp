@@ -4,13 +4,13 @@
 /// The one-call renderer: a scene, a camera and settings in; a picture and an account of what it took out.
 #include <pellucid/core/half.hpp>
 #include <pellucid/graph/graph.hpp>
-#include <pellucid/measure/gpu_timer.hpp>
 #include <pellucid/passes/gbuffer.hpp>
 #include <pellucid/passes/lighting.hpp>
-#include <pellucid/passes/sorted_forward.hpp>
 #include <pellucid/passes/tonemap.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/renderer/needs.hpp>
+#include <pellucid/renderer/render_frame.hpp>
+#include <pellucid/renderer/translucent.hpp>
 #include <pellucid/rhi/readback.hpp>
 #include <bit>
 #include <memory>
@@ -41,7 +41,8 @@ public:
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
 
-    /// Records and submits one frame; returns at once.  Errors: device loss, memory.
+    /// Records and submits one frame; returns at once, but for methods that must see on the CPU what the GPU counted
+    /// (settings.transparency: abuffer waits once).  Errors: device loss, memory, a memory budget that is too small.
     [[nodiscard]] Result<rhi::Ticket> render(const Camera& camera);
 
     /// `[h, w, 4]` linear radiance before the tone curve, of the last frame; waits for it.
@@ -56,7 +57,7 @@ public:
     [[nodiscard]] const SceneNeeds& needs() const noexcept { return needs_; }
     [[nodiscard]] const RenderSettings& settings() const noexcept { return settings_; }
     /// GPU time of each pass of the newest frame whose timestamps have arrived; empty on devices without timestamps.
-    [[nodiscard]] auto gpu_times() { return timer_->collect(); }
+    [[nodiscard]] auto gpu_times() { return clock_->collect(); }
     /// Targets of the G-buffer, for passes of the user's own; null handles where the scene has nothing opaque.
     [[nodiscard]] const GBufferTargets& gbuffer() const noexcept { return gbuffer_; }
     [[nodiscard]] const SceneBinding& scene_binding() const noexcept { return scene_->binding(); }
@@ -66,7 +67,6 @@ private:
     [[nodiscard]] Result<void> build(const Scene& scene);
     void declare_opaque();
     void declare_background();
-    void declare_translucent();
     void declare_tonemap();
     [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);
 
@@ -80,10 +80,9 @@ private:
     GBufferTargets gbuffer_;
     std::optional<GBufferPass<B>> gbuffer_pass_;
     std::optional<LightingPass<B>> lighting_pass_;
-    std::optional<SortedForwardPass<B>> sorted_pass_;
+    Translucent<B> translucent_;
     std::optional<TonemapPass<B>> tonemap_pass_;
-    std::optional<measure::GpuTimer<B>> timer_;
-    rhi::Ticket last_ = rhi::Ticket::none;
+    std::optional<FrameClock<B>> clock_;
     std::vector<std::string> warnings_;
     std::uint32_t pipelines_ = 0;
 };

@@ -12,11 +12,17 @@
 namespace pellucid {
 
 enum class Transparency : std::uint8_t {
-    none,   ///< translucent surfaces are left out
-    sorted  ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
+    none,    ///< translucent surfaces are left out
+    sorted,  ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
+    abuffer  ///< exact: every fragment stored, sorted and composited in compute, in bands where memory is short
 };
 [[nodiscard]] constexpr const char* name(Transparency t) noexcept {
-    return t == Transparency::none ? "none" : "sorted";
+    constexpr const char* names[] = {"none", "sorted", "abuffer"};
+    return names[static_cast<std::size_t>(t)];
+}
+/// Whether a method draws translucent instances in the order of the scene, each once, with all its faces.
+[[nodiscard]] constexpr bool any_order(Transparency t) noexcept {
+    return t != Transparency::none && t != Transparency::sorted;
 }
 
 struct RenderSettings {
@@ -29,8 +35,11 @@ struct RenderSettings {
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve
     glm::vec3 background{0.05f, 0.05f, 0.08f};  ///< linear radiance where nothing is
     bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
-    bool exact = false;         ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
-    bool keep_gbuffer = false;  ///< the G-buffer may be read back after a frame (Renderer::read_*)
+    float min_transmittance = 0;      ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
+    std::uint64_t memory_budget = 0;  ///< [byte] of an A-buffer's fragments; 0: what the device can bind
+    bool audit = false;               ///< keep, for each pixel, how many fragments were composited (tests)
+    bool exact = false;               ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
+    bool keep_gbuffer = false;        ///< the G-buffer may be read back after a frame (Renderer::read_*)
     bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 

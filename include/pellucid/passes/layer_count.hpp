@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Counts translucent fragments: how many lie over each pixel, in front of what is opaque.
+#include <pellucid/gpu/layer_count.h>
+#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/shaders/layer_count.hpp>
+
+namespace pellucid {
+
+/// What the strips of a count add up to.
+struct LayerTotals {
+    std::uint64_t fragments = 0;
+    std::uint64_t pixels = 0;   ///< with at least one fragment
+    std::uint32_t deepest = 0;  ///< fragments of one pixel
+};
+
+/// Exact counts, by additive blending, of everything that passes the depth test (greater-or-equal against the opaque
+/// surfaces), whatever its colour and alpha.  Coverage and depth are those of every other pass.  (An atomic addition a
+/// fragment is faster where the GPU has many units for it, and several times slower on software drivers.)
+/// Shaders: shaders/layer_count.
+template <rhi::Backend B>
+class LayerCountPass {
+public:
+    /// `culls`: bit (1 << Cull) for each way of culling in use.  Errors: those of creation.
+    [[nodiscard]] static Result<LayerCountPass> create(typename B::Device& device, Extent2D size, std::uint32_t culls);
+
+    /// Records the passes that count and bring the strips' sums to the CPU.  `depth`: d32_float `[h, w]`, read only.
+    /// Precondition: no pass is open.
+    void record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
+                std::span<const DrawItem> items) const;
+
+    /// Sums of strips of PELLUCID_LAYERS_TILE rows, from the top.  Precondition: what was recorded is done.
+    [[nodiscard]] std::span<const gpu::LayerStrip> strips() const { return strips_; }
+    [[nodiscard]] LayerTotals totals() const;
+    /// r32_float `[h, w]`: the fragments of each pixel; storage and copy_source.
+    [[nodiscard]] rhi::Texture counts() const { return counts_; }
+
+private:
+    rhi::Unique<typename B::Device, rhi::Texture> counts_;
+    rhi::Unique<typename B::Device, rhi::Buffer> strip_buffer_, readback_;
+    rhi::Unique<typename B::Device, rhi::Group> strip_group_;
+    CullVariants<B> count_;
+    rhi::Unique<typename B::Device, rhi::Pipeline> sum_;
+    std::span<const gpu::LayerStrip> strips_;
+    Extent2D size_ = {};
+};
+
+// ------------------------------------------------------------------------------------------------------- bodies
+
+template <rhi::Backend B>
+Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, Extent2D size, std::uint32_t culls) {
+    using enum rhi::BindingKind;
+    LayerCountPass pass;
+    pass.size_ = size;
+    PELLUCID_OWN(pass.counts_, device,
+                 device.make_texture({.size = size,
+                                      .format = rhi::Format::r32_float,
+                                      .usage = rhi::TextureUsage::storage | rhi::TextureUsage::attachment |
+                                               rhi::TextureUsage::copy_source,
+                                      .debug_name = "layer_count.counts"}));
+    const std::uint32_t strips = (size.height + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE;
+    PELLUCID_OWN(pass.strip_buffer_, device,
+                 device.make_buffer({.size = strips * sizeof(gpu::LayerStrip),
+                                     .usage = rhi::BufferUsage::storage | rhi::BufferUsage::copy_source,
+                                     .debug_name = "layer_count.strips"}));
+    PELLUCID_OWN(pass.readback_, device,
+                 device.make_buffer({.size = strips * sizeof(gpu::LayerStrip),
+                                     .usage = rhi::BufferUsage::copy_destination,
+                                     .memory = rhi::Memory::readback,
+                                     .debug_name = "layer_count.readback"}));
+    pass.strips_ = {reinterpret_cast<const gpu::LayerStrip*>(device.mapped(pass.readback_).data()), strips};
+    const rhi::GroupLayout layout{
+        {{PELLUCID_LAYERS_COUNTS, storage_texture}, {PELLUCID_LAYERS_STRIPS, storage_buffer}}};
+    PELLUCID_OWN(pass.strip_group_, device,
+                 device.make_group({.layout = layout,
+                                    .bindings = {{.binding = PELLUCID_LAYERS_COUNTS, .texture = pass.counts_},
+                                                 {.binding = PELLUCID_LAYERS_STRIPS, .buffer = pass.strip_buffer_}},
+                                    .debug_name = "layer_count.strips"}));
+    constexpr rhi::Blend add{.enabled = true, .dst_color = rhi::BlendFactor::one, .dst_alpha = rhi::BlendFactor::one};
+    PELLUCID_CHECK(pass.count_.create(
+        device,
+        {.vertex = &shaders::scene_position_vert,
+         .fragment = &shaders::layer_count_frag,
+         .scene_group = scene_group_layout(),
+         .colors = {{.format = rhi::Format::r32_float, .blend = add}},
+         .depth = {.format = rhi::Format::d32_float, .test = true, .compare = rhi::Compare::greater_equal},
+         .debug_name = "layer_count"},
+        culls));
+    PELLUCID_OWN(
+        pass.sum_, device,
+        device.make_pipeline(rhi::ComputePipelineDesc{
+            .compute = &shaders::layer_count_strips_comp, .pass_group = layout, .debug_name = "layer_count.strips"}));
+    return pass;
+}
+
+template <rhi::Backend B>
+void LayerCountPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
+                               std::span<const DrawItem> items) const {
+    using enum rhi::Access;
+    rhi::RenderPassDesc count{.colors = {{.texture = counts_}},
+                              .depth = {.texture = depth, .load = rhi::Load::load, .read_only = true},
+                              .uses = scene.uses,
+                              .size = size_,
+                              .name = "layer_count"};
+    count.uses.push_back(rhi::use(scene.indices, index_read));
+    cmd.begin_render(count);
+    draw_items<B>(cmd, count_, scene, items);
+    cmd.end_render();
+
+    cmd.begin_compute({.uses = {rhi::use(counts_, storage_read), rhi::use(strip_buffer_, storage_write)},
+                       .name = "layer_count.strips"});
+    cmd.bind_pipeline(sum_);
+    cmd.bind_group(strip_group_);
+    cmd.dispatch(static_cast<std::uint32_t>(strips_.size()), 1, 1);
+    cmd.end_compute();
+
+    cmd.begin_copy({.uses = {rhi::use(strip_buffer_, copy_read), rhi::use(readback_, copy_write)},
+                    .name = "layer_count.readback"});
+    cmd.copy(strip_buffer_, readback_, {.size = strips_.size_bytes()});
+    cmd.end_copy();
+}
+
+template <rhi::Backend B>
+LayerTotals LayerCountPass<B>::totals() const {
+    LayerTotals t;
+    for (const gpu::LayerStrip& strip : strips_) {
+        t.fragments += strip.fragments;
+        t.pixels += strip.covered;
+        t.deepest = std::max(t.deepest, strip.deepest);
+    }
+    return t;
+}
+
+}  // namespace pellucid

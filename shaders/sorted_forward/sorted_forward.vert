@@ -1,4 +1,0 @@
-#version 450
-#extension GL_GOOGLE_include_directive : require
-// SPDX-License-Identifier: MIT
-#include "common/scene_vertex.glsl"
