@@ -6,6 +6,7 @@
 #include <pellucid/scene/sample_scenes.hpp>
 #include <cstdio>
 #include <cstring>
+#include <string>
 
 namespace {
 

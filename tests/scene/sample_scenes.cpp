@@ -155,8 +155,8 @@ TEST_CASE("intersecting planes: all orders, crossing in a cube", "[cpu][sample_s
         CHECK(pixels_before(pixels, a, a % 3 + 1) > 100);
         CHECK(pixels_before(pixels, a % 3 + 1, a) > 100);
     }
-    // Three planes through a point part the view into the orders of eight octants; a view sees at least four of six.
-    CHECK(orders.size() >= 4);
+    // The lines in which two of the three cross part the picture into six sectors, each with another order.
+    CHECK(orders.size() == 6);
 }
 
 TEST_CASE("random quads: exact colours, many crossings", "[cpu][sample_scenes]") {
@@ -241,7 +241,8 @@ TEST_CASE("lit glass: three kinds of light, glass in glass", "[cpu][sample_scene
             CHECK(translucent(glass, pane));
             CHECK((pixels_before(pixels, 1, pane) > 50 && pixels_before(pixels, pane, 1) > 50));  // the bubble
         }
-        CHECK((pixels_before(pixels, 2, 3) > 50 && pixels_before(pixels, 3, 2) > 50));
+        for (const std::size_t other : {3u, 4u})
+            CHECK((pixels_before(pixels, 2, other) > 50 && pixels_before(pixels, other, 2) > 50));
         for (const Instance& instance : glass.instances)  // all above the floor
             for (const glm::vec3& p : glass.meshes[instance.mesh].positions)
                 REQUIRE((instance.world_from_object * glm::dvec4(glm::dvec3(p), 1)).y > -1e-6);

@@ -210,7 +210,12 @@ TEST_CASE("a teapot's mesh is valid at every fineness", "[cpu][teapot]") {
             const Mesh mesh = make_teapot(n, surface);
             check_valid(mesh, n >= 6);
             CHECK(mesh.name == "teapot");
-            for (const glm::vec2& uv : mesh.uv0) CHECK((uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1));
+            for (const glm::vec2& uv : mesh.uv0) REQUIRE((uv.x >= 0 && uv.x <= 1 && uv.y >= 0 && uv.y <= 1));
+            for (std::size_t t = 0; t < mesh.indices.size(); t += 3) {  // u to the right, v down, seen from outside
+                const glm::dvec2 a(mesh.uv0[mesh.indices[t]]), b(mesh.uv0[mesh.indices[t + 1]]),
+                    c(mesh.uv0[mesh.indices[t + 2]]);
+                REQUIRE((b - a).x * (c - a).y - (b - a).y * (c - a).x < 0);
+            }
             CHECK((mesh.lower == glm::vec3(-3, surface == TeapotSurface::original ? 0.15f : 0.0f, -2)));
             CHECK((mesh.upper.y == 3.15f && mesh.upper.z == 2.0f));
         }

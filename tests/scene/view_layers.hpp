@@ -59,7 +59,7 @@ inline std::vector<std::vector<Layer>> view_layers(const Scene& scene, std::uint
     return pixels;
 }
 
-/// In how many pixels some part of instance `a` is right in front of, or anywhere before, some part of instance `b`.
+/// In how many pixels some layer of instance `a` is before (not only next to) some layer of instance `b`.
 inline std::size_t pixels_before(const std::vector<std::vector<Layer>>& pixels, std::size_t a, std::size_t b) {
     std::size_t count = 0;
     for (const std::vector<Layer>& layers : pixels) {

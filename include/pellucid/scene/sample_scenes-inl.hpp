@@ -68,8 +68,8 @@ inline Material glass_material(glm::vec4 color, float roughness, std::string nam
             .name = std::move(name)};
 }
 
-/// A frame whose x, y and z axes are the columns of a rotation; `z` is normalised, `near_x` made orthogonal to it.
-inline glm::dmat4 frame(glm::dvec3 position, glm::dvec3 z, glm::dvec3 near_x) {
+/// World from a pane that faces `z` (any length) at `position`, its x axis the part of `near_x` orthogonal to z.
+inline glm::dmat4 pane_frame(glm::dvec3 position, glm::dvec3 z, glm::dvec3 near_x) {
     z = glm::normalize(z);
     const glm::dvec3 y = glm::normalize(glm::cross(z, near_x));
     return {glm::dvec4(glm::cross(y, z), 0), glm::dvec4(y, 0), glm::dvec4(z, 0), glm::dvec4(position, 1)};
@@ -118,7 +118,7 @@ PELLUCID_INLINE Scene make_peeling_scene() {
         builder.add_material(detail::glass_material({0.12f, 0.75f, 0.25f, 0.6f}, 0.4f, "green"));
     builder.place(builder.add_mesh(make_teapot(16), amber, "teapot"), {0, 0, 0}, 0.35);
     builder.place(builder.add_mesh(detail::make_pane(5.0, 4.2), blue, "pane"),
-                  detail::frame({0.1, 1.7, 0}, {-0.75, 0.25, 1}, {1, 0, 0.75}));
+                  detail::pane_frame({0.1, 1.7, 0}, {-0.75, 0.25, 1}, {1, 0, 0.75}));
     builder.place(builder.add_mesh(make_uv_sphere(1.15f, 32, 64), green, "sphere"), {1.45, 1.05, 0.75});
     builder.scene.lights.push_back({.kind = LightKind::directional,
                                     .color = {1, 0.97f, 0.92f},
@@ -173,7 +173,7 @@ PELLUCID_INLINE Scene make_intersecting_planes(float alpha) {
     for (int i = 0; i < 3; ++i) {
         const std::uint32_t material = builder.add_material(detail::unlit_material({colors[i], alpha}, names[i]));
         builder.place(builder.add_mesh(detail::make_pane(3, 3), material, names[i]),
-                      detail::frame({0, 0, 0}, axes[i], axes[(i + 1) % 3]));
+                      detail::pane_frame({0, 0, 0}, axes[i], axes[(i + 1) % 3]));
     }
     builder.scene.cameras.push_back(detail::sample_camera({3.7, 3.0, 5.2}, {0, 0, 0}, 0.6));
     return std::move(builder.scene);
@@ -195,7 +195,7 @@ PELLUCID_INLINE Scene make_random_quads(std::uint32_t count, std::uint32_t seed)
         const double width = random.between(0.5, 1.8), height = random.between(0.5, 1.8);
         const std::uint32_t material = builder.add_material(detail::unlit_material(color / 255.0, name));
         builder.place(builder.add_mesh(detail::make_pane(width, height), material, name),
-                      detail::frame(center, normal, other));
+                      detail::pane_frame(center, normal, other));
     }
     builder.scene.cameras.push_back(detail::sample_camera({2.2, 2.9, 8.9}, {0, -0.2, 0}, 0.62));
     return std::move(builder.scene);
@@ -256,7 +256,8 @@ PELLUCID_INLINE Scene make_lit_glass(std::uint32_t seed) {
         const double yaw = pane.yaw + random.between(-0.15, 0.15), lean = random.between(-0.1, 0.1);
         builder.place(
             builder.add_mesh(detail::make_pane(pane.width, pane.height), glass(i + 1, pane.alpha, 0.35f, name), name),
-            detail::frame(pane.position, {std::sin(yaw), lean, std::cos(yaw)}, {std::cos(yaw), 0, -std::sin(yaw)}));
+            detail::pane_frame(pane.position, {std::sin(yaw), lean, std::cos(yaw)},
+                               {std::cos(yaw), 0, -std::sin(yaw)}));
     }
     builder.scene.lights = {{.kind = LightKind::directional,
                              .color = {1, 0.95f, 0.88f},
@@ -314,8 +315,8 @@ PELLUCID_INLINE Scene make_teapot_grid(const TeapotGrid& grid) {
                                     .intensity = 4,
                                     .direction = glm::normalize(glm::dvec3(-0.4, -0.8, -0.5)),
                                     .name = "sun"});
-    const glm::dvec3 extent(0.23 * width, 0.15, 0.5 * depth),
-        up(0, 0.15, 0);  // a square picture loses some at the sides
+    // A square picture is to lose some at the sides: else a wide one is mostly empty.
+    const glm::dvec3 extent(0.23 * width, 0.15, 0.5 * depth), up(0, 0.15, 0);
     builder.scene.cameras.push_back(detail::sample_camera_around(up - extent, up + extent, {0.08, 0.36, 1}, 0.55));
     return std::move(builder.scene);
 }

@@ -14,9 +14,9 @@
 namespace pellucid {
 namespace detail {
 
-// The data set is symmetric, so what is written here is less than its 306 points.  The numbers are Newell's, as
-// P. Schneider's copy of 1990 ("Martin Newell's teapot made famous by J. Blinn", there divided by 3.525) and freeglut's
-// teapot have them.
+// The data set is symmetric, so what is written here is less than its 306 points.  The numbers are those of P.
+// Schneider's copy of 1990 ("Martin Newell's teapot made famous by J. Blinn", divided by 3.525 there; four points of
+// its knob's tip are 0.002 beside it) and of freeglut's teapot, which has the bottom too.
 
 /// A ring of control points round the y axis: each quarter has its ends at `radius` on two axes, and its inner points
 /// `tangent` further along the tangents there (0.56 of the radius; a circle would have 0.5523).
@@ -86,7 +86,7 @@ struct SurfacePoint {
     glm::dvec3 position, normal;
 };
 /// At s and t of exactly 0 and 1 only the control points there count, so patches that share them meet bit by bit.
-inline SurfacePoint evaluate(const BezierPatch& patch, double s, double t) {
+inline SurfacePoint evaluate_patch(const BezierPatch& patch, double s, double t) {
     const auto weights = [](double x, double(&value)[4], double(&slope)[4]) {
         const double y = 1.0 - x;
         value[0] = y * y * y, value[1] = 3.0 * x * y * y, value[2] = 3.0 * x * x * y, value[3] = x * x * x;
@@ -144,7 +144,7 @@ public:
             for (std::uint32_t column = 0; column < part.columns + (pole ? 0 : 1); ++column) {
                 const std::uint32_t patch_column = std::min(column / n_, across - 1);
                 const double s = static_cast<double>(column - patch_column * n_) / n_;
-                const SurfacePoint point = evaluate(patches[patch_row * across + patch_column], s, t);
+                const SurfacePoint point = evaluate_patch(patches[patch_row * across + patch_column], s, t);
                 // A pole's vertex belongs to one triangle: its u is that triangle's middle.
                 add_vertex(glm::vec3(point.position), glm::vec3(point.normal),
                            {(column + (pole ? 0.5 : 0.0)) / part.columns, static_cast<double>(row) / part.rows});
@@ -180,11 +180,9 @@ public:
         const glm::vec3 up = glm::normalize(glm::cross(outer - inner, glm::vec3(0, 0, 1)));
         for (std::uint32_t column = 0; column < 2 * n_; ++column) {
             const std::uint32_t along = std::min(column, 2 * n_ - column);
+            const double across = along == 0 || along == n_ ? 0.5 : (column < n_) != last ? 0.0 : 1.0;
             add_vertex(mesh_.positions[tube.vertex(row, column)], last ? -up : up,
-                       {along == 0 || along == n_ ? 0.5
-                        : column < n_             ? 0.0
-                                                  : 1.0,
-                        static_cast<double>(along) / n_});
+                       {across, static_cast<double>(along) / n_});
         }
         const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
             add_triangle(first + a, first + (last ? c : b), first + (last ? b : c));

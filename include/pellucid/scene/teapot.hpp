@@ -4,10 +4,10 @@
 /// Newell's teapot, as the bicubic Bézier patches that it was made of and as a mesh.
 ///
 /// M. E. Newell, "The Utilization of Procedure Models in Digital Image Synthesis", PhD thesis, University of Utah,
-/// 1975. His 28 patches have no bottom; the four of the bottom came later (F. Crow, "The Origins of the Teapot", IEEE
-/// Computer Graphics and Applications 7(1), 1987, tells the story).  The units are his, taken as metres; y is up, the
-/// axis of the body is the y axis, the bottom stands on y = 0, the spout points to +x and the handle to -x.  The teapot
-/// reaches from -3 to 3.434 in x (spout's lip), from 0 to 3.15 in y (knob) and from -2 to 2 in z.
+/// 1975; F. Crow, "The Origins of the Teapot", IEEE Computer Graphics and Applications 7(1), 1987.  Newell's 28 patches
+/// have no bottom; its four came later.  The units are the data set's, taken as metres; y is up, the axis of the body
+/// is the y axis, the bottom stands on y = 0, the spout points to +x and the handle to -x.  The teapot reaches from -3
+/// to 3.434 in x (spout's lip), from 0 to 3.15 in y (knob) and from -2 to 2 in z.
 #include <pellucid/core/config.hpp>
 #include <pellucid/scene/mesh.hpp>
 #include <cstdint>
