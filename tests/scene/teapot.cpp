@@ -104,7 +104,73 @@ std::vector<Mesh> components(const Mesh& mesh) {
     return list;
 }
 
+/// One point of every ring and section of another copy of the data (P. Schneider, 1990): from the body's foot up, and
+/// divided by 3.525, to six digits.
+constexpr glm::dvec3 other_copy[] = {{0.397163, 0.638298, -0.222411},
+                                     {0.379433, 0.675532, -0.212482},
+                                     {0.407801, 0.675532, -0.228369},
+                                     {0.425532, 0.638298, -0.238298},
+                                     {0.496454, 0.489362, -0.278014},
+                                     {0.567376, 0.340426, -0.31773},
+                                     {0.567376, 0.212766, -0.31773},
+                                     {0.567376, 0.0851064, -0.31773},
+                                     {0.425532, 0.0212766, -0.238298},
+                                     {0.425532, 0, -0.238298},
+                                     {-0.453901, 0.531915, -0.0851064},
+                                     {-0.425532, 0.595745, -0.0851064},
+                                     {-0.652482, 0.531915, -0.0851064},
+                                     {-0.70922, 0.595745, -0.0851064},
+                                     {-0.765957, 0.531915, -0.0851064},
+                                     {-0.851064, 0.595745, -0.0851064},
+                                     {-0.765957, 0.468085, -0.0851064},
+                                     {-0.851064, 0.468085, -0.0851064},
+                                     {-0.765957, 0.404255, -0.0851064},
+                                     {-0.851064, 0.340426, -0.0851064},
+                                     {-0.70922, 0.276596, -0.0851064},
+                                     {-0.751773, 0.223404, -0.0851064},
+                                     {-0.567376, 0.212766, -0.0851064},
+                                     {-0.539007, 0.12766, -0.0851064},
+                                     {0.482269, 0.361702, -0.187234},
+                                     {0.482269, 0.12766, -0.187234},
+                                     {0.737589, 0.361702, -0.187234},
+                                     {0.879433, 0.191489, -0.187234},
+                                     {0.652482, 0.553191, -0.070922},
+                                     {0.680851, 0.531915, -0.070922},
+                                     {0.765957, 0.638298, -0.070922},
+                                     {0.93617, 0.638298, -0.070922},
+                                     {0.794326, 0.659574, -0.070922},
+                                     {1, 0.664894, -0.070922},
+                                     {0.822695, 0.659574, -0.0425532},
+                                     {0.978723, 0.670213, -0.0425532},
+                                     {0.794326, 0.638298, -0.0425532},
+                                     {0.907801, 0.638298, -0.0425532},
+                                     {0, 0.851064, 0},
+                                     {0.22695, 0.851064, -0.12766},
+                                     {0, 0.765957, 0},
+                                     {0.0567376, 0.723404, -0.031773},
+                                     {0.113475, 0.680851, -0.0635461},
+                                     {0.368794, 0.680851, -0.206525},
+                                     {0.368794, 0.638298, -0.206525}};
+
 }  // namespace
+
+TEST_CASE("the teapot's control points are those of another copy", "[cpu][teapot]") {
+    std::vector<glm::dvec3> points;
+    for (const BezierPatch& patch : teapot_patches(false))
+        for (const auto& row : patch.points) points.insert(points.end(), std::begin(row), std::end(row));
+    CHECK(points.size() == 28 * 16);
+    for (const glm::dvec3& other : other_copy) {
+        const glm::dvec3 wanted = 3.525 * other + glm::dvec3(0, 0.15, 0);
+        double nearest = 1;
+        for (const glm::dvec3& point : points) nearest = std::min(nearest, glm::distance(point, wanted));
+        INFO(wanted.x << " " << wanted.y << " " << wanted.z);
+        CHECK(nearest < 4e-6);
+    }
+    // And there are no others: the copy has 269, four of which are beside the knob's tip.
+    std::set<std::tuple<double, double, double>> distinct;
+    for (const glm::dvec3& p : points) distinct.insert({p.x, p.y, p.z});
+    CHECK(distinct.size() == 265);
+}
 
 TEST_CASE("the teapot's patches meet, without a gap and without a fold", "[cpu][teapot]") {
     const std::vector<BezierPatch> patches = teapot_patches();
