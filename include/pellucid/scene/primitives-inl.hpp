@@ -106,6 +106,33 @@ PELLUCID_INLINE Mesh make_icosphere(float radius, std::uint32_t subdivisions) {
     return mesh;
 }
 
+PELLUCID_INLINE Mesh make_torus(float major, float minor, std::uint32_t segments, std::uint32_t sides) {
+    assert(segments >= 3 && sides >= 3 && minor > 0 && major > minor);
+    constexpr double pi = 3.14159265358979323846;
+    Mesh mesh;
+    mesh.name = "torus";
+    for (std::uint32_t segment = 0; segment <= segments; ++segment) {
+        const double u = static_cast<double>(segment) / segments;
+        const double around = 2.0 * pi * (segment % segments) / segments;  // the seam exactly
+        const glm::dvec3 outward(-std::cos(around), 0, std::sin(around));
+        for (std::uint32_t side = 0; side <= sides; ++side) {
+            const double v = static_cast<double>(side) / sides;
+            const double angle = 2.0 * pi * (side % sides) / sides;
+            const glm::dvec3 normal = -std::cos(angle) * outward + glm::dvec3(0, std::sin(angle), 0);
+            mesh.positions.push_back(glm::vec3(double{major} * outward + double{minor} * normal));
+            mesh.normals.push_back(glm::vec3(normal));
+            mesh.uv0.push_back(glm::vec2(u, v));
+        }
+    }
+    for (std::uint32_t segment = 0; segment < segments; ++segment)
+        for (std::uint32_t side = 0; side < sides; ++side) {
+            const std::uint32_t a = segment * (sides + 1) + side, right = a + sides + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, a + 1, right, right, a + 1, right + 1});
+        }
+    update_bounds(mesh);
+    return mesh;
+}
+
 PELLUCID_INLINE Mesh make_box(glm::vec3 size) {
     Mesh mesh;
     mesh.name = "box";

@@ -17,6 +17,13 @@ namespace pellucid {
 /// 10 · 4^n + 2 vertices; no texture coordinates.
 [[nodiscard]] Mesh make_icosphere(float radius, std::uint32_t subdivisions);
 
+/// Torus round the y axis: a tube of radius `minor` > 0 whose centre line is a circle of radius `major` > `minor` [m];
+/// `segments` >= 3 round the axis, `sides` >= 3 round the tube.  u goes round from -x over +z to +x, v round the tube
+/// from its inner side over the top (+y) and down the outer side; both seams are doubled.  2 segments sides triangles,
+/// a polyhedron of volume segments sin(2 pi / segments) · major · 1/2 sides minor² sin(2 pi / sides), whose limit is
+/// 2 pi² major minor²: every vertex is on the torus, every face is flat.
+[[nodiscard]] Mesh make_torus(float major, float minor, std::uint32_t segments, std::uint32_t sides);
+
 /// Box with the given edge lengths [m]: 24 vertices, each face has the whole picture upright.
 [[nodiscard]] Mesh make_box(glm::vec3 size);
 
