@@ -85,6 +85,10 @@ PELLUCID_INLINE Result<QualityReport> quality(const ImageF& test, const ImageF& 
     if (!wanted(M::coverage)) return report;
     if (options.test_layers) {
         PELLUCID_TRY(report.layers, layer_difference(*options.test_layers, *options.reference_layers));
+        if (options.test_layers->width != test.width || options.test_layers->height != test.height)
+            return Error{Errc::invalid_argument, "quality: the layer counts are " +
+                                                     detail::shape(*options.test_layers) + ", but the pictures are " +
+                                                     detail::shape(test)};
         Image8 stable = report.layers->stable;
         if (options.mask)
             for (std::size_t i = 0; i < stable.data.size() && i < options.mask->data.size(); ++i)
