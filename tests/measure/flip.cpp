@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <pellucid/measure/detail/flip_pictures.hpp>
 #include <pellucid/measure/flip.hpp>
 #include <pellucid/measure/flip_color.hpp>
 #include "measure/flip_direct.hpp"
@@ -235,6 +236,15 @@ TEST_CASE("weighted quartiles", "[cpu]") {
     CHECK(error.weighted_median == Approx(expected(0.5)).margin(2e-7));
     CHECK(error.weighted_upper_quartile == Approx(expected(0.75)).margin(2e-7));
     CHECK(error.weighted_lower_quartile < error.weighted_upper_quartile);
+}
+
+TEST_CASE("a weighted quartile is passed, not reached", "[cpu]") {
+    const std::vector<double> errors = {0, 0.25, 0.25, 0.5};  // add up to 0, 0.25, 0.5, 1
+    CHECK(detail::weighted_quantile(errors, 1, 0.25) == 0.25);
+    CHECK(detail::weighted_quantile(errors, 1, 0.5) == 0.5);
+    CHECK(detail::weighted_quantile(errors, 1, 0.49) == 0.25);
+    CHECK(detail::weighted_quantile(errors, 1, 0.1) == 0.25);
+    CHECK(detail::weighted_quantile({0, 0}, 0, 0.5) == 0);
 }
 
 TEST_CASE("grey is RGB of equal channels, and alpha is not seen", "[cpu]") {

@@ -61,7 +61,7 @@ PELLUCID_INLINE Result<QualityReport> quality(const ImageF& test, const ImageF& 
         return Error{Errc::invalid_argument, std::string("quality: only the ") +
                                                  (options.test_layers ? "test" : "reference") +
                                                  " picture's layer counts were given; give both or none"};
-    QualityReport report{test.width, test.height, test.channels, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+    QualityReport report{.width = test.width, .height = test.height, .channels = test.channels};
     if (wanted(M::errors)) {
         PELLUCID_TRY(report.absolute, image_error(test, reference, {ErrorScale::absolute, options.mask}));
         PELLUCID_TRY(report.scaled, image_error(test, reference, {ErrorScale::scaled, options.mask}));
