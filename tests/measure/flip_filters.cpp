@@ -22,7 +22,8 @@ void check_half(const Kernel& kernel, const std::vector<double>& printed, double
 }  // namespace
 
 TEST_CASE("pixels per degree", "[cpu]") {
-    CHECK(default_pixels_per_degree == Approx(67.0206).margin(5e-5));  // 67.0206451: NVlabs/flip, single precision
+    CHECK(default_pixels_per_degree ==
+          Approx(67.0206).margin(5e-5));  // 67.0206451 in single precision: FlipBinding.CSharp
     CHECK(default_pixels_per_degree == Approx(3840 * std::acos(-1.0) / 180).epsilon(1e-14));
     CHECK(pixels_per_degree(1.4, 3840, 0.7) == Approx(2 * default_pixels_per_degree).epsilon(1e-14));
 }

@@ -3,9 +3,9 @@
 /// \file
 /// The colours of FLIP: from linear RGB (sRGB primaries) to the two spaces the metric works in, and its distance of two
 /// colours.  After Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström and Fairchild, "FLIP: A Difference Evaluator
-/// for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020, the colour pipeline of its section on
-/// the algorithm; where the paper leaves a choice, as in the authors' implementation 1.7.  White is D65, the XYZ of RGB
-/// (1,1,1) itself, so that grey has exactly no chroma.
+/// for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), article 15, 2020: its colour pipeline. Where
+/// the paper leaves a choice (borders, normalisation, matrices), as in the authors' implementation, NVlabs/flip.  White
+/// is D65, the XYZ of RGB (1,1,1) itself, so that grey has no chroma.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -11,7 +11,7 @@
 /// reference's.
 ///
 /// Defined beyond the paper: light above 65536 is 65536; the median of a picture that is black for more than its half
-/// is that of its lit pixels (the authors' implementation 1.7 takes 2^-23, which amplifies what no one sees);
+/// is that of its lit pixels (other implementations take 2^-23 there, which amplifies what no one sees);
 /// luminances below 2^-23 count as 2^-23; a reference that is all black is shown at exposure 0.  Pixels that are not
 /// finite: as in flip.hpp.
 #include <pellucid/measure/flip.hpp>
