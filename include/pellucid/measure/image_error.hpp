@@ -113,14 +113,15 @@ template <class T>
 }
 
 template <class T>
-[[nodiscard]] Result<void> check_shapes(const Image<T>& test, const Image<T>& reference, const Image8* mask) {
+[[nodiscard]] Result<void> check_shapes(const Image<T>& test, const Image<T>& reference, const Image8* mask,
+                                        const char* what = "image error") {
     if (test.width != reference.width || test.height != reference.height || test.channels != reference.channels ||
         test.channels < 1 || test.channels > 4)
-        return Error{Errc::invalid_argument, "image error: the test picture is " + shape(test) +
+        return Error{Errc::invalid_argument, std::string(what) + ": the test picture is " + shape(test) +
                                                  " and the reference is " + shape(reference) +
                                                  ", but both must have the same [h, w, c] with c in 1 ... 4"};
     if (mask && (mask->width != test.width || mask->height != test.height || mask->channels != 1))
-        return Error{Errc::invalid_argument, "image error: the mask is " + shape(*mask) + ", but must be [" +
+        return Error{Errc::invalid_argument, std::string(what) + ": the mask is " + shape(*mask) + ", but must be [" +
                                                  std::to_string(test.height) + ", " + std::to_string(test.width) +
                                                  ", 1] like the pictures"};
     return {};
@@ -144,6 +145,14 @@ public:
 private:
     std::string text_ = "{";
 };
+
+[[nodiscard]] inline std::string to_json(const WorstPixel& worst) {
+    JsonObject object;
+    object.add("x", std::uint64_t{worst.x}).add("y", std::uint64_t{worst.y});
+    object.add("channel", std::uint64_t{worst.channel}).add("value", static_cast<double>(worst.value));
+    object.add("reference", static_cast<double>(worst.reference));
+    return object.close();
+}
 
 }  // namespace detail
 
@@ -238,14 +247,11 @@ Result<ImageF> error_picture(const ImageF& test, const ImageF& reference, const 
 }
 
 std::string to_json(const ImageError& error) {
-    const WorstPixel& w = error.worst;
-    detail::JsonObject worst, object;
-    worst.add("x", std::uint64_t{w.x}).add("y", std::uint64_t{w.y}).add("channel", std::uint64_t{w.channel});
-    worst.add("value", static_cast<double>(w.value)).add("reference", static_cast<double>(w.reference));
+    detail::JsonObject object;
     object.raw("scale", error.scale == ErrorScale::scaled ? "\"scaled\"" : "\"absolute\"");
     object.add("pixels", error.pixels).add("masked_out", error.masked_out).add("values", error.values);
     object.add("mean", error.mean).add("rmse", error.rmse).add("max", error.max).add("p999", error.p999);
-    object.add("relative_mse", error.relative_mse).raw("worst", worst.close());
+    object.add("relative_mse", error.relative_mse).raw("worst", detail::to_json(error.worst));
     object.add("nonfinite", error.nonfinite).add("nonfinite_reference", error.nonfinite_reference);
     object.add("different_pixels", error.different_pixels).add("different_values", error.different_values);
     object.add("different_bits", error.different_bits).add("max_ulp", std::uint64_t{error.max_ulp});
