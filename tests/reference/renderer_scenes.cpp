@@ -33,11 +33,9 @@ TEST_CASE("scenes with an independent reference: the same radiance at every stab
         INFO(known.name);
         const std::string base = (*folder / known.name).string();
         const Scene scene = test::must(load_gltf(base + ".gltf"));
-        const reference::Picture picture = test::must(reference::render(scene, scene.cameras.at(0),
-                                                                        {.size = {256, 256},
-                                                                         .background = known.background,
-                                                                         .lights = scene.lights,
-                                                                         .stability = true}));
+        const reference::Picture picture = test::must(reference::render(
+            scene, scene.cameras.at(0),
+            {.size = {256, 256}, .background = known.background, .lights = scene.lights, .stability = true}));
         const ImageF expected = test::must(read_pfm(base + ".reference.pfm"));
         const Image8 stable = test::must(read_pgm(base + ".stable.pgm"));
         REQUIRE(expected.width == 256);
@@ -59,8 +57,10 @@ TEST_CASE("scenes with an independent reference: the same radiance at every stab
             only_theirs += stable.data[i] == 255 && picture.stable.data[i] != 255;
             differ += error > known.bound;
         }
-        std::printf("%-22s worst %.2e on stable pixels, %.2e elsewhere (%d pixels above %.0e); stable: theirs %d, ours %d, both %d, only theirs %d\n",
-                    known.name, worst, worst_unstable, differ, known.bound, theirs, ours, both, only_theirs);
+        std::printf(
+            "%-22s worst %.2e on stable pixels, %.2e elsewhere (%d pixels above %.0e); stable: theirs %d, ours %d, "
+            "both %d, only theirs %d\n",
+            known.name, worst, worst_unstable, differ, known.bound, theirs, ours, both, only_theirs);
         CHECK(worst <= known.bound);
     }
 }

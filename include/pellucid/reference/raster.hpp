@@ -2,8 +2,8 @@
 #pragma once
 /// \file
 /// Which pixel centres a triangle covers, how deep, and with what weights of its corners: 2D homogeneous edge functions
-/// (Olano and Greer 1997, "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so that nothing is clipped and a
-/// triangle may reach behind the eye.
+/// (Olano and Greer 1997, "Triangle Scan Conversion using 2D Homogeneous Coordinates"), so that nothing is clipped and
+/// a triangle may reach behind the eye.
 ///
 /// With v0, v1, v2 the corners' (x, y, w) in clip space and p = (x, y, 1) a point in normalised device coordinates, the
 /// ray through p meets the triangle in front of the eye (w > 0) exactly where det(v1,v2,p), det(v2,v0,p) and
@@ -54,12 +54,11 @@ struct PixelRect {
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
 [[nodiscard]] inline PixelRect intersection(const PixelRect& a, const PixelRect& b) noexcept {
-    return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right),
-            std::min(a.bottom, b.bottom)};
+    return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};
 }
 
-/// The corners' values mixed with weights whose sum is 1.  The corner that weighs most is moved by its differences to the
-/// others: equal values stay what they are to the bit, and far corners of little weight cost no digits.
+/// The corners' values mixed with weights whose sum is 1.  The corner that weighs most is moved by its differences to
+/// the others: equal values stay what they are to the bit, and far corners of little weight cost no digits.
 template <class T>
 [[nodiscard]] T mixed(const T& a, const T& b, const T& c, const glm::dvec3& weights) noexcept {
     const glm::dvec3 k = glm::abs(weights);
@@ -93,7 +92,8 @@ public:
     /// Perspective-correct weights of the corners at a covered sample: each in [0,1], sum 1.
     [[nodiscard]] glm::dvec3 weights(const SamplePoint& sample) const noexcept;
 
-    /// The same at any sample, extrapolated on the triangle's plane.  Not finite where the ray is parallel to the plane.
+    /// The same at any sample, extrapolated on the triangle's plane.  Not finite where the ray is parallel to the
+    /// plane.
     [[nodiscard]] glm::dvec3 extrapolated_weights(const SamplePoint& sample) const noexcept {
         const glm::dvec3 e = accurate_edges(sample);
         return e / (e.x + e.y + e.z);
@@ -174,8 +174,8 @@ inline bool RasterTriangle::covers(const SamplePoint& sample) const noexcept {
         const double doubt = doubt_[i] * sample.w;
         if (e > doubt) continue;
         if (e < -doubt) return false;
-        const int sign = facing_ * sign_of_determinant(corner((i + 1) % 3), corner((i + 2) % 3),
-                                                       {sample.x, sample.y, sample.w});
+        const int sign =
+            facing_ * sign_of_determinant(corner((i + 1) % 3), corner((i + 2) % 3), {sample.x, sample.y, sample.w});
         if (sign < 0 || (sign == 0 && !owns_boundary(i))) return false;
     }
     return true;

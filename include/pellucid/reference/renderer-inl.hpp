@@ -3,12 +3,19 @@
 /// \file
 /// Definitions of renderer.hpp: triangles are binned by screen tile, tiles are drawn in parallel, and each visible
 /// fragment is shaded once.
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+#include <algorithm>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <pellucid/reference/detail/fragments.hpp>
 #include <pellucid/reference/renderer.hpp>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace pellucid::reference {
 namespace detail {
@@ -18,9 +25,8 @@ inline constexpr std::int32_t tile_side = 32;  // [pixel]
 /// Runs `work` with the threads that the options allow.
 template <class F>
 void with_threads(std::uint32_t threads, F&& work) {
-    const std::uint32_t limit = 1u << 10u;
-    oneapi::tbb::task_arena arena(threads == 0 ? oneapi::tbb::task_arena::automatic
-                                               : static_cast<int>(std::min(threads, limit)));
+    const int all = oneapi::tbb::info::default_concurrency();
+    oneapi::tbb::task_arena arena(threads == 0 || std::cmp_greater(threads, all) ? all : static_cast<int>(threads));
     arena.execute(work);
 }
 
@@ -188,8 +194,8 @@ private:
 };
 
 inline Error out_of_memory(const RenderOptions& options) {
-    return {Errc::out_of_memory, "memory ran out while the reference drew " + std::to_string(options.size.width) +
-                                     "x" + std::to_string(options.size.height) +
+    return {Errc::out_of_memory, "memory ran out while the reference drew " + std::to_string(options.size.width) + "x" +
+                                     std::to_string(options.size.height) +
                                      " pixels; ask for a smaller picture, or draw a simpler scene"};
 }
 
@@ -227,10 +233,9 @@ PELLUCID_INLINE Result<std::vector<Fragment>> fragments_at(const Scene& scene, c
                                                            const RenderOptions& options, std::uint32_t x,
                                                            std::uint32_t y) try {
     if (x >= options.size.width || y >= options.size.height)
-        return Error{Errc::invalid_argument, "pixel (" + std::to_string(x) + ", " + std::to_string(y) +
-                                                 ") is outside of the picture of " +
-                                                 std::to_string(options.size.width) + "x" +
-                                                 std::to_string(options.size.height)};
+        return Error{Errc::invalid_argument,
+                     "pixel (" + std::to_string(x) + ", " + std::to_string(y) + ") is outside of the picture of " +
+                         std::to_string(options.size.width) + "x" + std::to_string(options.size.height)};
     Result<std::vector<Fragment>> result{std::vector<Fragment>{}};
     detail::with_threads(options.threads, [&] {
         const Result<detail::Prepared> prepared = detail::prepare(scene, camera, options);

@@ -31,22 +31,23 @@ namespace pellucid::reference {
 inline constexpr std::uint32_t max_picture_side = 16384;
 
 struct RenderOptions {
-    Extent2D size{256, 256};              ///< [pixel] each side in 1 … `max_picture_side`
-    glm::dvec3 background{0, 0, 0};       ///< linear radiance where nothing is; finite
-    std::vector<Light> lights = {};       ///< used as they are: pass Scene::lights or a default light
-    glm::dvec3 ambient{0, 0, 0};          ///< [cd/m²] the same radiance from everywhere; finite
-    BrdfModel brdf = BrdfModel::gltf;     ///< of every lit surface
-    bool translucent = true;              ///< false: blended surfaces are left out
-    bool stability = false;               ///< also fill Picture::stable, at nine times the rasterisation
-    std::uint32_t threads = 0;            ///< at most this many; 0: as many as the machine has
+    Extent2D size{256, 256};           ///< [pixel] each side in 1 … `max_picture_side`
+    glm::dvec3 background{0, 0, 0};    ///< linear radiance where nothing is; finite
+    std::vector<Light> lights = {};    ///< used as they are: pass Scene::lights or a default light
+    glm::dvec3 ambient{0, 0, 0};       ///< [cd/m²] the same radiance from everywhere; finite
+    BrdfModel brdf = BrdfModel::gltf;  ///< of every lit surface
+    bool translucent = true;           ///< false: blended surfaces are left out
+    bool stability = false;            ///< also fill Picture::stable, at nine times the rasterisation
+    std::uint32_t threads = 0;         ///< at most this many; 0: as many as the machine has
     /// Called with the share that is done: rising, 1 at last, one call at a time, from any thread.  Null: not called.
     void (*progress)(void* user, double fraction) = nullptr;
     void* user = nullptr;  ///< passed to `progress`
 };
 
 struct Picture {
-    ImageF radiance;              ///< [h, w, 3] linear, before tone mapping; computed in double and rounded once
-    Image<std::uint32_t> layers;  ///< [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha
+    ImageF radiance;  ///< [h, w, 3] linear, before tone mapping; computed in double and rounded once
+    Image<std::uint32_t>
+        layers;  ///< [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha
     /// [h, w, 1] 255 where the fragments up to the first opaque one are the same primitives in the same order at the
     /// pixel's centre and at the eight points (±1/64, ±1/64) pixel around it, diagonals included; else 0.  Empty unless
     /// `stability` was asked for.
@@ -55,13 +56,13 @@ struct Picture {
 
 /// One fragment of a pixel.
 struct Fragment {
-    double depth = 0;                     ///< [0,1] reversed: 1 near, 0 at the far end
-    std::uint32_t primitive = 0;          ///< index of the triangle in draw order, over all instances
-    std::uint32_t instance = 0;           ///< index into Scene::instances
-    double alpha = 1;                     ///< [0,1] share of what lies behind that it hides
-    glm::dvec3 radiance{0, 0, 0};         ///< [cd/m²] straight: before alpha
-    glm::dvec3 premultiplied{0, 0, 0};    ///< [cd/m²] what it adds itself: radiance · alpha
-    bool opaque = false;                  ///< of an opaque or masked material: it ends the pixel
+    double depth = 0;                   ///< [0,1] reversed: 1 near, 0 at the far end
+    std::uint32_t primitive = 0;        ///< index of the triangle in draw order, over all instances
+    std::uint32_t instance = 0;         ///< index into Scene::instances
+    double alpha = 1;                   ///< [0,1] share of what lies behind that it hides
+    glm::dvec3 radiance{0, 0, 0};       ///< [cd/m²] straight: before alpha
+    glm::dvec3 premultiplied{0, 0, 0};  ///< [cd/m²] what it adds itself: radiance · alpha
+    bool opaque = false;                ///< of an opaque or masked material: it ends the pixel
 };
 
 /// Draws the scene.  The same bits for any number of threads.

@@ -33,11 +33,11 @@ struct Placement {
 
 /// What is interpolated over a triangle.
 struct Attributes {
-    glm::dvec3 position{0};   ///< [m] world
-    glm::dvec3 normal{0};     ///< world; unit at vertices
-    glm::dvec4 tangent{0};    ///< world; unit at vertices, 0 where the mesh has none; w: handedness
-    glm::dvec2 uv[2] = {};    ///< texture coordinates of both sets, 0 where the mesh has none
-    glm::dvec4 color{1};      ///< linear straight RGBA
+    glm::dvec3 position{0};  ///< [m] world
+    glm::dvec3 normal{0};    ///< world; unit at vertices
+    glm::dvec4 tangent{0};   ///< world; unit at vertices, 0 where the mesh has none; w: handedness
+    glm::dvec2 uv[2] = {};   ///< texture coordinates of both sets, 0 where the mesh has none
+    glm::dvec4 color{1};     ///< linear straight RGBA
 };
 [[nodiscard]] inline Attributes vertex_attributes(const Mesh& mesh, const Placement& placed,
                                                   std::uint32_t vertex) noexcept;
@@ -60,8 +60,8 @@ struct TexturedMaterial {
     TextureUse base_color, metallic_roughness, normal, occlusion, emissive;
 };
 
-/// KHR_texture_transform: scaled, then turned by `rotation`, counter-clockwise on the picture as it is looked at (v runs
-/// down): u' = cos·u + sin·v, v' = −sin·u + cos·v; then moved by `offset`.
+/// KHR_texture_transform: scaled, then turned by `rotation`, counter-clockwise on the picture as it is looked at (v
+/// runs down): u' = cos·u + sin·v, v' = −sin·u + cos·v; then moved by `offset`.
 [[nodiscard]] inline glm::dvec2 transformed_uv(const TextureRef& ref, glm::dvec2 uv) noexcept;
 
 /// The texture's value in linear light, or all ones where there is none.
@@ -128,8 +128,7 @@ Attributes vertex_attributes(const Mesh& mesh, const Placement& placed, std::uin
     if (!mesh.tangents.empty()) {
         const glm::dvec4 tangent(mesh.tangents[vertex]);
         const glm::dvec3 turned = glm::dmat3(placed.world_from_object) * glm::dvec3(tangent);
-        out.tangent =
-            glm::dvec4(detail::unit_or(turned, glm::dvec3(0)), placed.mirrored ? -tangent.w : tangent.w);
+        out.tangent = glm::dvec4(detail::unit_or(turned, glm::dvec3(0)), placed.mirrored ? -tangent.w : tangent.w);
     }
     if (!mesh.uv0.empty()) out.uv[0] = glm::dvec2(mesh.uv0[vertex]);
     if (!mesh.uv1.empty()) out.uv[1] = glm::dvec2(mesh.uv1[vertex]);

@@ -42,7 +42,8 @@ struct SampledTexture {
 /// where a derivative is not finite.  `dx` and `dy`: change of (u, v) from pixel to pixel along x and y.
 [[nodiscard]] inline double level_of_detail(Extent2D size, glm::dvec2 dx, glm::dvec2 dy) noexcept;
 
-/// One level with one filter at (u, v), (0, 0) being the outer corner of the first texel.  Finite for any finite (u, v).
+/// One level with one filter at (u, v), (0, 0) being the outer corner of the first texel.  Finite for any finite (u,
+/// v).
 [[nodiscard]] inline glm::dvec4 sample_level(const SampledTexture& texture, std::size_t level, glm::dvec2 uv,
                                              TextureFilter filter) noexcept;
 

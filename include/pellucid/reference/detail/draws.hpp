@@ -96,11 +96,11 @@ struct Prepared {
     for (const std::uint32_t side : {options.size.width, options.size.height})
         if (side < 1 || side > max_picture_side)
             return Error{Errc::invalid_argument, "the picture's size is " + std::to_string(options.size.width) + "x" +
-                                                     std::to_string(options.size.height) +
-                                                     "; each side must be 1 to " + std::to_string(max_picture_side)};
+                                                     std::to_string(options.size.height) + "; each side must be 1 to " +
+                                                     std::to_string(max_picture_side)};
     for (int i = 0; i < 3; ++i)
-        for (const auto& [what, value] : {std::pair{"background", options.background[i]},
-                                          std::pair{"ambient", options.ambient[i]}})
+        for (const auto& [what, value] :
+             {std::pair{"background", options.background[i]}, std::pair{"ambient", options.ambient[i]}})
             if (!std::isfinite(value))
                 return Error{Errc::invalid_argument, std::string("a component of the ") + what + " is " +
                                                          std::to_string(value) + ", but must be finite"};

@@ -102,8 +102,8 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
                 if (!triangle.covers(sample)) continue;
                 const std::optional<double> depth = triangle.depth(sample);
                 if (!depth) continue;
-                const auto pixel = static_cast<std::uint32_t>(y - rect.top) * width +
-                                   static_cast<std::uint32_t>(x - rect.left);
+                const auto pixel =
+                    static_cast<std::uint32_t>(y - rect.top) * width + static_cast<std::uint32_t>(x - rect.left);
                 const Hit hit{.depth = *depth,
                               .depth_bits = std::bit_cast<std::uint32_t>(static_cast<float>(*depth)),
                               .primitive = primitive,
@@ -120,9 +120,8 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
     }
     for (const Hit& hit : opaque)
         if (hit.primitive != none) out.hits.push_back(hit);
-    std::sort(out.hits.begin(), out.hits.end(), [](const Hit& a, const Hit& b) {
-        return a.pixel != b.pixel ? a.pixel < b.pixel : in_front(a, b);
-    });
+    std::sort(out.hits.begin(), out.hits.end(),
+              [](const Hit& a, const Hit& b) { return a.pixel != b.pixel ? a.pixel < b.pixel : in_front(a, b); });
     out.ends.assign(pixels, 0);
     for (const Hit& hit : out.hits) ++out.ends[hit.pixel];
     for (std::uint32_t i = 1; i < pixels; ++i) out.ends[i] += out.ends[i - 1];
@@ -145,8 +144,7 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
     if (material.factors.unlit) {
         fragment.radiance = glm::dvec3(base);
     } else {
-        const Surface<double> surface =
-            surface_at(material, at, change, draw.front(triangle), prepared.backward());
+        const Surface<double> surface = surface_at(material, at, change, draw.front(triangle), prepared.backward());
         fragment.radiance = surface_radiance(surface, at.position, direction_to_eye(prepared.camera, at.position),
                                              options.lights, options.ambient, options.brdf);
     }
