@@ -292,6 +292,8 @@ TEST_CASE("reference: what it cannot draw it says in one sentence", "[cpu]") {
     says(camera, small(), "the camera \"front\": an element of world_from_view");
     camera.world_from_view = scaled(2, 2, 2);
     says(camera, small(), "not rigid");
+    camera.world_from_view = scaled(-1, 1, 1);
+    says(camera, small(), "not rigid");
     camera = {.vertical_fov = 3.2};
     says(camera, small(), "vertical_fov");
     camera = {.near = 0};

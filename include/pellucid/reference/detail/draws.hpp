@@ -72,10 +72,10 @@ struct Prepared {
         for (int r = 0; r < 4; ++r)
             if (!std::isfinite(m[c][r])) return number("an element of world_from_view", m[c][r], "finite");
     const glm::dmat3 axes(m), product = glm::transpose(axes) * axes;
+    bool rigid = glm::determinant(axes) > 0 && m[3][3] == 1;
     for (int c = 0; c < 3; ++c)
-        for (int r = 0; r < 3; ++r)
-            if (std::abs(product[c][r] - (c == r)) > 1e-5 || m[c][3] != 0 || m[3][3] != 1)
-                return fail("world_from_view is not rigid; take scale, shear and projection out of it");
+        for (int r = 0; r < 3; ++r) rigid = rigid && std::abs(product[c][r] - (c == r)) <= 1e-5 && m[c][3] == 0;
+    if (!rigid) return fail("world_from_view is not rigid; take scale, shear, mirroring and projection out of it");
     if (camera.projection == Projection::perspective) {
         if (!(camera.vertical_fov > 0 && camera.vertical_fov < std::numbers::pi))
             return number("vertical_fov", camera.vertical_fov, "in (0, pi) rad");
