@@ -304,6 +304,30 @@ TEST_CASE("weights are perspective-correct, and extrapolate on the plane", "[cpu
     CHECK(k.y == Approx(0.25).epsilon(1e-8));
 }
 
+TEST_CASE("weights of a covered sample are never below 0, also where it is on an edge up to rounding", "[cpu]") {
+    Random random(12);
+    const Extent2D size{64, 48};
+    int covered = 0, below = 0;
+    for (int i = 0; i < 50000; ++i) {
+        const SamplePoint s = sample_point(static_cast<std::int64_t>(random.uniform(0, 64)), 20, size);
+        const auto corner = [&] { return at(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(0.1, 3)); };
+        const glm::dvec4 p = corner(), other = corner();
+        const double t = random.uniform(1, 3);  // q lies beyond the sample, as seen from p
+        const double px = p.x / p.w, py = p.y / p.w;
+        const glm::dvec4 q = at(px + t * (s.x / s.w - px), py + t * (s.y / s.w - py), random.uniform(0.1, 3));
+        const RasterTriangle triangle(p, q, other);
+        if (!triangle.covers(s)) continue;
+        ++covered;
+        const glm::dvec3 k = triangle.weights(s), e = triangle.extrapolated_weights(s);
+        below += std::min({e.x, e.y, e.z}) < 0;
+        REQUIRE(std::min({k.x, k.y, k.z}) >= 0);
+        REQUIRE(std::max({k.x, k.y, k.z}) <= 1);
+        REQUIRE(k.x + k.y + k.z == Approx(1).epsilon(1e-15));
+    }
+    CHECK(covered > 10000);
+    CHECK(below > 100);  // or the limit would not be needed
+}
+
 TEST_CASE("mixing equal values gives the value, to the bit", "[cpu]") {
     Random random(10);
     for (int i = 0; i < 10000; ++i) {
@@ -311,8 +335,10 @@ TEST_CASE("mixing equal values gives the value, to the bit", "[cpu]") {
         const glm::dvec3 e(random.uniform(), random.uniform(), random.uniform());
         const glm::dvec3 k = e / (e.x + e.y + e.z);
         REQUIRE(mixed(value, value, value, k) == value);
-        // A far corner of little weight: the others' digits stay.
-        const double share = 1e-12;
-        REQUIRE(mixed(1.0, 2.0, -1e9, {0.5, 0.5 - share, share}) == Approx(1.499 - 2e-12).epsilon(1e-15));
     }
+    // A far corner of little weight: the others' digits stay, whichever corner it is.
+    const double share = 1e-12, expected = 1.499 - 2e-12;
+    CHECK(mixed(1.0, 2.0, -1e9, {0.5, 0.5 - share, share}) == Approx(expected).epsilon(1e-15));
+    CHECK(mixed(-1e9, 1.0, 2.0, {share, 0.5, 0.5 - share}) == Approx(expected).epsilon(1e-15));
+    CHECK(mixed(2.0, -1e9, 1.0, {0.5 - share, share, 0.5}) == Approx(expected).epsilon(1e-15));
 }

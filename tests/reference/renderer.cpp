@@ -202,6 +202,15 @@ TEST_CASE("reference: a pixel is stable where an edge is more than 1/64 pixel aw
     const Picture across = must(render(diagonal, flat_camera(), options));
     for (std::uint32_t y = 0; y < 8; ++y)
         for (std::uint32_t x = 0; x < 8; ++x) CHECK((*across.stable.texel(x, y) == 255) == (x != y));
+    // Something so small that one of the eight points alone meets it.
+    for (int step = 0; step < 9; ++step) {
+        Scene speck;
+        const double right = step % 3 - 1, up = step / 3 - 1;
+        add(speck, quad(1e-3f, 1e-3f), flat({1, 1, 1, 1}), at((right / 64 - 0.5) / 4, (up / 64 + 0.5) / 4, 0));
+        const Picture p = must(render(speck, flat_camera(), options));
+        for (std::uint32_t y = 0; y < 8; ++y)
+            for (std::uint32_t x = 0; x < 8; ++x) CHECK((*p.stable.texel(x, y) == 255) == !(x == 3 && y == 3));
+    }
     // Two blended sheets that cross in a line through the middle of pixel 3: their order changes there.
     Scene crossing;
     const Material half = flat({1, 1, 1, 0.5f}, AlphaMode::blend);
