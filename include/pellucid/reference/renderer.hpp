@@ -46,11 +46,11 @@ struct RenderOptions {
 
 struct Picture {
     ImageF radiance;  ///< [h, w, 3] linear, before tone mapping; computed in double and rounded once
-    Image<std::uint32_t>
-        layers;  ///< [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha
+    /// [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha.
+    Image<std::uint32_t> layers;
     /// [h, w, 1] 255 where the fragments up to the first opaque one are the same primitives in the same order at the
-    /// pixel's centre and at the eight points (±1/64, ±1/64) pixel around it, diagonals included; else 0.  Empty unless
-    /// `stability` was asked for.
+    /// pixel's centre and at the eight points that are 1/64 pixel off along x, along y or along both; else 0.  Empty
+    /// unless `stability` was asked for.
     Image8 stable;
 };
 
@@ -71,7 +71,8 @@ struct Fragment {
 [[nodiscard]] Result<Picture> render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// The fragments that make pixel (x, y), row 0 at the top, nearest first: the blended ones in front of the nearest
-/// opaque one, then that one, if there is any.  Errors: as `render`, and a pixel outside of the picture.
+/// opaque one, then that one, if there is any.  Every call prepares the whole scene, textures too.
+/// Errors: as `render`, and a pixel outside of the picture.
 [[nodiscard]] Result<std::vector<Fragment>> fragments_at(const Scene& scene, const Camera& camera,
                                                          const RenderOptions& options, std::uint32_t x,
                                                          std::uint32_t y);
