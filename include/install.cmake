@@ -1,5 +1,5 @@
 # What `cmake --install` puts where: headers (the shaders' too), libraries, the shader build, and the package that
-# find_package(pellucid COMPONENTS vulkan opengl) finds.
+# find_package(pellucid COMPONENTS vulkan opengl reference) finds.
 include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/pellucid)
 set(shader_folder ${CMAKE_INSTALL_DATADIR}/pellucid/shaders)
@@ -11,14 +11,17 @@ install(DIRECTORY ${PROJECT_BINARY_DIR}/shaders/generated/pellucid DESTINATION $
 install(DIRECTORY shaders/common DESTINATION ${shader_folder} FILES_MATCHING PATTERN "*.glsl")
 install(FILES shaders/pellucid_shaders.cmake shaders/compile.cmake DESTINATION ${shader_folder})
 
-# One export set for each component: a program needs the packages of the backends it asks for, and no others.
+# One export set for each component: a program needs the packages of those it asks for, and no others.
 install(TARGETS pellucid EXPORT pellucid ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT pellucid NAMESPACE pellucid:: FILE pellucid-core.cmake DESTINATION ${package_folder})
-foreach(backend vulkan opengl)
-  if(TARGET pellucid_${backend})
-    install(DIRECTORY backends/${backend}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
-    install(TARGETS pellucid_${backend} EXPORT pellucid_${backend} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
-    install(EXPORT pellucid_${backend} NAMESPACE pellucid:: FILE pellucid-${backend}.cmake DESTINATION ${package_folder})
+foreach(component vulkan opengl reference)
+  if(TARGET pellucid_${component})
+    if(NOT component STREQUAL "reference")  # its headers are among the toolkit's
+      install(DIRECTORY backends/${component}/include/ DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    endif()
+    install(TARGETS pellucid_${component} EXPORT pellucid_${component} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+    install(EXPORT pellucid_${component} NAMESPACE pellucid:: FILE pellucid-${component}.cmake
+      DESTINATION ${package_folder})
   endif()
 endforeach()
 

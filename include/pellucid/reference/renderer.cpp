@@ -1,0 +1,2 @@
+// SPDX-License-Identifier: MIT
+#include <pellucid/reference/renderer-inl.hpp>
