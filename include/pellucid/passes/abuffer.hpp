@@ -3,9 +3,8 @@
 /// \file
 /// Exact transparency of any order and depth: an A-buffer (Carpenter 1984) of exactly the size that the frame needs.
 #include <pellucid/gpu/abuffer.h>
-#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/passes/fragment_desc.hpp>
 #include <pellucid/passes/layer_count.hpp>
-#include <pellucid/passes/lighting.hpp>
 #include <pellucid/passes/strip_bands.hpp>
 #include <pellucid/shaders/abuffer.hpp>
 #include <algorithm>
@@ -14,11 +13,7 @@
 namespace pellucid {
 
 struct AbufferDesc {
-    Extent2D size = {};
-    Brdf brdf = Brdf::gltf;
-    std::uint32_t needs = PELLUCID_NEED_ALL;
-    std::uint32_t culls = 7;  ///< bit (1 << Cull) for each way of culling in use
-    bool exact = false;
+    FragmentDesc fragments = {};
     std::uint64_t memory_budget = 0;  ///< [byte] for stored fragments; 0: what the device can bind
     float min_transmittance = 0;      ///< a pixel is done where less gets through; 0: only what nothing can change
     bool audit = false;               ///< keep how many fragments each pixel composited, and composite them all
@@ -116,14 +111,14 @@ Result<AbufferPass<B>> AbufferPass<B>::create(typename B::Device& device, const 
 
 template <rhi::Backend B>
 std::uint32_t AbufferPass<B>::tiles() const {
-    return (desc_.size.width + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE *
+    return (desc_.fragments.size.width + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE *
            static_cast<std::uint32_t>(strip_bases_.size());
 }
 
 template <rhi::Backend B>
 Result<void> AbufferPass<B>::make_buffers(typename B::Device& device) {
     using enum rhi::BufferUsage;
-    strip_bases_.resize((desc_.size.height + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE);
+    strip_bases_.resize((desc_.fragments.size.height + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE);
     PELLUCID_OWN(
         bases_, device,
         device.make_buffer(
@@ -136,7 +131,7 @@ Result<void> AbufferPass<B>::make_buffers(typename B::Device& device) {
                  device.make_buffer({.size = std::uint64_t{4} * PELLUCID_ABUFFER_CLASS_COUNT * tiles(),
                                      .usage = storage,
                                      .debug_name = "abuffer.tiles"}));
-    rhi::TextureDesc a_pixel{.size = desc_.size,
+    rhi::TextureDesc a_pixel{.size = desc_.fragments.size,
                              .format = rhi::Format::r32_uint,
                              .usage = rhi::TextureUsage::storage,
                              .debug_name = "abuffer.cursors"};
@@ -155,17 +150,17 @@ Result<void> AbufferPass<B>::make_pipelines(typename B::Device& device) {
                                                                .pass_group = detail::abuffer_place_layout(),
                                                                .push_bytes = sizeof(gpu::AbufferResolve),
                                                                .debug_name = "abuffer.place"}));
-    const rhi::SpecConstant constants[] = {{0, desc_.needs}, {1, static_cast<std::uint32_t>(desc_.brdf)}};
-    PELLUCID_CHECK(
-        fill_.create(device,
-                     {.vertex = &shaders::scene_vert,
-                      .fragment = desc_.exact ? &shaders::abuffer_fill_frag_exact : &shaders::abuffer_fill_frag,
-                      .constants = constants,
-                      .pass_group = detail::abuffer_fill_layout(),
-                      .scene_group = scene_group_layout(),
-                      .depth = {.format = rhi::Format::d32_float, .test = true, .compare = rhi::Compare::greater_equal},
-                      .debug_name = "abuffer.fill"},
-                     desc_.culls));
+    const auto constants = desc_.fragments.constants();
+    PELLUCID_CHECK(fill_.create(
+        device,
+        {.vertex = &shaders::scene_vert,
+         .fragment = desc_.fragments.exact ? &shaders::abuffer_fill_frag_exact : &shaders::abuffer_fill_frag,
+         .constants = constants,
+         .pass_group = detail::abuffer_fill_layout(),
+         .scene_group = scene_group_layout(),
+         .depth = FragmentDesc::depth_test(),
+         .debug_name = "abuffer.fill"},
+        desc_.fragments.culls));
     const rhi::Shader* const shaders[] = {&shaders::abuffer_resolve_4_comp, &shaders::abuffer_resolve_8_comp,
                                           &shaders::abuffer_resolve_16_comp, &shaders::abuffer_resolve_32_comp};
     for (std::uint32_t c = 0; c < PELLUCID_ABUFFER_CLASS_COUNT; ++c) {
@@ -258,17 +253,13 @@ template <rhi::Backend B>
 void AbufferPass<B>::fill(typename B::Commands& cmd, const StripBand& band, rhi::Texture depth,
                           const SceneBinding& scene, std::span<const DrawItem> items) const {
     using enum rhi::Access;
-    rhi::RenderPassDesc pass{.depth = {.texture = depth, .load = rhi::Load::load, .read_only = true},
-                             .uses = scene.uses,
-                             .size = desc_.size,
-                             .name = "abuffer.fill"};
+    rhi::RenderPassDesc pass = desc_.fragments.render_pass(depth, scene, "abuffer.fill");
     pass.uses.push_back(rhi::use(cursors_, storage_read_write));
     pass.uses.push_back(rhi::use(nodes_, storage_write));
-    pass.uses.push_back(rhi::use(scene.indices, index_read));
     cmd.begin_render(pass);
     const std::uint32_t top = band.first * PELLUCID_LAYERS_TILE;
-    const std::uint32_t height = std::min(band.count * PELLUCID_LAYERS_TILE, desc_.size.height - top);
-    cmd.set_scissor({.y = top, .width = desc_.size.width, .height = height});
+    const std::uint32_t height = std::min(band.count * PELLUCID_LAYERS_TILE, desc_.fragments.size.height - top);
+    cmd.set_scissor({.y = top, .width = desc_.fragments.size.width, .height = height});
     draw_items<B>(cmd, fill_, scene, items, fill_group_);
     cmd.end_render();
 }

@@ -3,7 +3,7 @@
 /// \file
 /// Counts translucent fragments: how many lie over each pixel, in front of what is opaque.
 #include <pellucid/gpu/layer_count.h>
-#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/passes/fragment_desc.hpp>
 #include <pellucid/shaders/layer_count.hpp>
 
 namespace pellucid {
@@ -22,8 +22,8 @@ struct LayerTotals {
 template <rhi::Backend B>
 class LayerCountPass {
 public:
-    /// `culls`: bit (1 << Cull) for each way of culling in use.  Errors: those of creation.
-    [[nodiscard]] static Result<LayerCountPass> create(typename B::Device& device, Extent2D size, std::uint32_t culls);
+    /// Errors: those of creation.
+    [[nodiscard]] static Result<LayerCountPass> create(typename B::Device& device, const FragmentDesc& desc);
 
     /// Records the passes that count and bring the strips' sums to the CPU.  `depth`: d32_float `[h, w]`, read only.
     /// Precondition: no pass is open.
@@ -43,16 +43,17 @@ private:
     CullVariants<B> count_;
     rhi::Unique<typename B::Device, rhi::Pipeline> sum_;
     std::span<const gpu::LayerStrip> strips_;
-    Extent2D size_ = {};
+    FragmentDesc desc_;
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
 
 template <rhi::Backend B>
-Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, Extent2D size, std::uint32_t culls) {
+Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, const FragmentDesc& desc) {
     using enum rhi::BindingKind;
     LayerCountPass pass;
-    pass.size_ = size;
+    pass.desc_ = desc;
+    const Extent2D size = desc.size;
     PELLUCID_OWN(pass.counts_, device,
                  device.make_texture({.size = size,
                                       .format = rhi::Format::r32_float,
@@ -78,15 +79,14 @@ Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, 
                                                  {.binding = PELLUCID_LAYERS_STRIPS, .buffer = pass.strip_buffer_}},
                                     .debug_name = "layer_count.strips"}));
     constexpr rhi::Blend add{.enabled = true, .dst_color = rhi::BlendFactor::one, .dst_alpha = rhi::BlendFactor::one};
-    PELLUCID_CHECK(pass.count_.create(
-        device,
-        {.vertex = &shaders::scene_position_vert,
-         .fragment = &shaders::layer_count_frag,
-         .scene_group = scene_group_layout(),
-         .colors = {{.format = rhi::Format::r32_float, .blend = add}},
-         .depth = {.format = rhi::Format::d32_float, .test = true, .compare = rhi::Compare::greater_equal},
-         .debug_name = "layer_count"},
-        culls));
+    PELLUCID_CHECK(pass.count_.create(device,
+                                      {.vertex = &shaders::scene_position_vert,
+                                       .fragment = &shaders::layer_count_frag,
+                                       .scene_group = scene_group_layout(),
+                                       .colors = {{.format = rhi::Format::r32_float, .blend = add}},
+                                       .depth = FragmentDesc::depth_test(),
+                                       .debug_name = "layer_count"},
+                                      desc.culls));
     PELLUCID_OWN(
         pass.sum_, device,
         device.make_pipeline(rhi::ComputePipelineDesc{
@@ -98,12 +98,8 @@ template <rhi::Backend B>
 void LayerCountPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                                std::span<const DrawItem> items) const {
     using enum rhi::Access;
-    rhi::RenderPassDesc count{.colors = {{.texture = counts_}},
-                              .depth = {.texture = depth, .load = rhi::Load::load, .read_only = true},
-                              .uses = scene.uses,
-                              .size = size_,
-                              .name = "layer_count"};
-    count.uses.push_back(rhi::use(scene.indices, index_read));
+    rhi::RenderPassDesc count = desc_.render_pass(depth, scene, "layer_count");
+    count.colors.push_back({.texture = counts_});
     cmd.begin_render(count);
     draw_items<B>(cmd, count_, scene, items);
     cmd.end_render();

@@ -122,6 +122,9 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         placed_.push_back(p);
     }
     if (!sorted_.empty()) translucent_.reserve(2 * sorted_.size());
+    if (settings.transparency != Transparency::peel) return;
+    reversed_.assign(translucent_.rbegin(), translucent_.rend());
+    for (DrawItem& item : reversed_) item.first_index = meshes.reversed_index(item.first_index, item.index_count);
 }
 
 template <rhi::Backend B>
@@ -133,6 +136,7 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     std::vector<std::uint32_t> indices;
     indices.reserve(meshes.indices);
     for (const Mesh& mesh : scene.meshes) indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+    if (settings.transparency == Transparency::peel) append_reversed_triangles(indices);
     const TexturePlan plan = plan_textures(scene, PELLUCID_TEXTURE_ARRAYS, device.info().max_array_layers);
     out.warnings_ = plan.warnings;
     std::vector<gpu::MaterialRecord> materials;

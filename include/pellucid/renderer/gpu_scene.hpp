@@ -34,6 +34,8 @@ public:
     [[nodiscard]] std::span<const DrawItem> opaque() const noexcept { return opaque_; }
     /// Back to front, back and front faces apart; in the order of the scene for methods that sort fragments.
     [[nodiscard]] std::span<const DrawItem> translucent() const noexcept { return translucent_; }
+    /// The same surfaces with their primitives in exactly the reverse order; only for Transparency::peel.
+    [[nodiscard]] std::span<const DrawItem> translucent_reversed() const noexcept { return reversed_; }
     [[nodiscard]] std::uint32_t opaque_culls() const noexcept { return opaque_culls_; }
     [[nodiscard]] std::uint32_t translucent_culls() const noexcept { return translucent_culls_; }
     [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }
@@ -64,7 +66,7 @@ private:
     std::vector<rhi::Unique<typename B::Device, rhi::Sampler>> samplers_;
     rhi::Unique<typename B::Device, rhi::Group> group_;
     std::vector<Placed> placed_;
-    std::vector<DrawItem> opaque_, translucent_;
+    std::vector<DrawItem> opaque_, translucent_, reversed_;
     std::vector<SortedItem> sorted_;
     std::vector<std::uint8_t> mirrored_;
     std::vector<Light> light_sources_;

@@ -13,6 +13,9 @@
     how template class SortedForwardPass<B>; \
     how template class LayerCountPass<B>;    \
     how template class AbufferPass<B>;       \
+    how template class PeelPass<B>;          \
+    how template class PeelSeedPass<B>;      \
+    how template class DualPeelPass<B>;      \
     how template class TonemapPass<B>;       \
     how template class GpuScene<B>;          \
     how template class Translucent<B>;       \

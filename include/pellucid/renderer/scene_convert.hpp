@@ -19,7 +19,20 @@ namespace pellucid {
 struct MeshPlacement {
     std::vector<std::uint32_t> first_vertex, first_index;
     std::uint64_t vertices = 0, indices = 0;
+    /// Where `append_reversed_triangles` puts the triangles of an index range.
+    [[nodiscard]] std::uint32_t reversed_index(std::uint32_t first, std::uint32_t count) const {
+        return static_cast<std::uint32_t>(2 * indices - first - count);
+    }
 };
+
+/// Appends all triangles once more, the last one first; the corners of each keep their order.
+inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
+    const std::size_t count = indices.size();
+    indices.resize(2 * count);
+    for (std::size_t t = 0; t < count; t += 3)
+        std::copy_n(indices.begin() + static_cast<std::ptrdiff_t>(count - t - 3), 3,
+                    indices.begin() + static_cast<std::ptrdiff_t>(count + t));
+}
 
 [[nodiscard]] inline gpu::vec3 to_gpu(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Exact transparency by blending and depth tests alone: depth peeling (Everitt 2001) in two phases, so that fragments
+/// of equal depth are neither lost nor doubled.
+#include <pellucid/gpu/peel.h>
+#include <pellucid/passes/fragment_desc.hpp>
+#include <pellucid/passes/full_screen.hpp>
+#include <pellucid/shaders/peel.hpp>
+#include <algorithm>
+#include <array>
+
+namespace pellucid {
+
+struct PeelDesc {
+    FragmentDesc fragments = {};
+    std::uint32_t max_layers = 0;  ///< 0: as many as there are
+    float min_transmittance = 0;   ///< a pixel is done where no more gets through; 0: only what nothing can change
+    bool audit = false;            ///< count what each pixel composited, and composite it all
+};
+
+/// `[h, w]` each; `hdr` and `opaque` are the frame's, the rest belongs to the pass.
+struct PeelTargets {
+    rhi::Texture hdr = {};     ///< rgba16_float, attachment
+    rhi::Texture opaque = {};  ///< d32_float, sampled and attachment: never written
+    rhi::Texture next = {};    ///< r32_float, attachment and sampled
+    rhi::Texture layer = {};   ///< d32_float, attachment
+    rhi::Texture sum = {};     ///< rgba32_float, attachment and sampled
+    rhi::Texture count = {};   ///< r32_float, attachment; only for an audit
+};
+
+/// Layer by layer, nearest first:
+///   nearest: the depth of the nearest fragments behind the last layer, by blending with MAX under the depth test LESS;
+///   advance: that depth becomes the layer (depth 0 where the pixel is done);
+///   layer: all fragments of exactly this depth (the depth test EQUAL compares bits) are shaded and composited under
+///     what is there, C += T c, T *= 1 - a, in single precision; the last primitive first.
+/// It goes on until a `nearest` lets no sample through, so any number of layers is composited; every fragment is shaded
+/// once.  With `max_layers` or `min_transmittance` t > 0 the error of a pixel is at most the share of light that its
+/// composited layers let through (for t: at most t) times the largest radiance behind.  Shaders: shaders/peel.
+template <rhi::Backend B>
+class PeelPass {
+public:
+    /// Errors: those of creation.
+    [[nodiscard]] static Result<PeelPass> create(typename B::Device& device, const PeelDesc& desc,
+                                                 const PeelTargets& targets);
+
+    /// Starts a frame.  Precondition of this and of all that record: no pass is open.
+    void begin(typename B::Commands& cmd);
+    /// Records some layers more.  `items` in the order of the scene, `reversed` the same surfaces in exactly the
+    /// reverse order of primitives.
+    void record_layers(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
+                       std::span<const DrawItem> reversed);
+    /// Once what was recorded is done: whether there are layers left to record.  Errors: those of the queries.
+    [[nodiscard]] Result<bool> more(typename B::Device& device);
+    /// Records the layers over `hdr`.
+    void composite(typename B::Commands& cmd) const;
+
+    [[nodiscard]] std::uint32_t layers() const { return found_; }        ///< of the last frame
+    [[nodiscard]] bool truncated() const { return truncated_; }          ///< max_layers left fragments out
+    [[nodiscard]] rhi::Texture sum() const { return targets_.sum; }      ///< colour and transmittance of all layers
+    [[nodiscard]] rhi::Texture count() const { return targets_.count; }  ///< fragments composited; audit only
+
+private:
+    static constexpr std::uint32_t batch_limit = 64;
+
+    [[nodiscard]] Result<void> make_pipelines(typename B::Device& device);
+    void nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
+                 std::uint32_t query) const;
+    void advance(typename B::Commands& cmd) const;
+    void layer(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> reversed) const;
+
+    PeelDesc desc_;
+    PeelTargets targets_;
+    rhi::Unique<typename B::Device, rhi::Sampler> sampler_;
+    rhi::Unique<typename B::Device, rhi::Group> layer_group_;
+    FullScreenPass<B> advance_, composite_;
+    rhi::Unique<typename B::Device, rhi::Queries> queries_;
+    CullVariants<B> first_, nearest_, layer_;
+    std::uint32_t recorded_ = 0;  ///< layers of this frame, up to now
+    std::uint32_t in_batch_ = 0;  ///< of them in the last batch
+    std::uint32_t batch_ = 4;     ///< size of the next batch
+    std::uint32_t found_ = 0;
+    bool probed_ = false;  ///< the last batch ended with the question whether max_layers leaves anything out
+    bool truncated_ = false;
+};
+
+// ------------------------------------------------------------------------------------------------------- bodies
+
+template <rhi::Backend B>
+Result<PeelPass<B>> PeelPass<B>::create(typename B::Device& device, const PeelDesc& desc, const PeelTargets& targets) {
+    PeelPass pass;
+    pass.desc_ = desc;
+    pass.targets_ = targets;
+    PELLUCID_OWN(pass.sampler_, device, device.make_sampler(texel_sampler("peel")));
+    PELLUCID_OWN(pass.layer_group_, device,
+                 device.make_group(sampled_group(
+                     pass.sampler_, {{PELLUCID_PEEL_NEXT, targets.next}, {PELLUCID_PEEL_OPAQUE, targets.opaque}},
+                     "peel.layer")));
+    PELLUCID_OWN(
+        pass.queries_, device,
+        device.make_queries({.kind = rhi::QueryKind::occlusion, .count = batch_limit, .debug_name = "peel.samples"}));
+    PELLUCID_CHECK(pass.make_pipelines(device));
+    return pass;
+}
+
+template <rhi::Backend B>
+Result<void> PeelPass<B>::make_pipelines(typename B::Device& device) {
+    using enum rhi::BlendFactor;
+    constexpr rhi::Blend nearest{true, one, one, rhi::BlendOp::max, one, one, rhi::BlendOp::max};
+    rhi::GraphicsPipelineDesc find{.vertex = &shaders::scene_position_vert,
+                                   .fragment = &shaders::peel_nearest_frag,
+                                   .scene_group = scene_group_layout(),
+                                   .colors = {{.format = rhi::Format::r32_float, .blend = nearest}},
+                                   .depth = FragmentDesc::depth_test(),
+                                   .debug_name = "peel.nearest"};
+    PELLUCID_CHECK(first_.create(device, find, desc_.fragments.culls));
+    find.depth.compare = rhi::Compare::less;
+    PELLUCID_CHECK(nearest_.create(device, find, desc_.fragments.culls));
+
+    constexpr rhi::Blend under{true, dst_alpha, one, rhi::BlendOp::add, zero, one_minus_src_alpha, rhi::BlendOp::add};
+    constexpr rhi::Blend add{true, one, one, rhi::BlendOp::add, one, one, rhi::BlendOp::add};
+    const auto constants = desc_.fragments.constants();
+    rhi::GraphicsPipelineDesc shade{
+        .vertex = &shaders::scene_vert,
+        .fragment = desc_.fragments.exact ? &shaders::peel_layer_frag_exact : &shaders::peel_layer_frag,
+        .constants = constants,
+        .pass_group = sampled_layout({PELLUCID_PEEL_NEXT, PELLUCID_PEEL_OPAQUE}),
+        .scene_group = scene_group_layout(),
+        .colors = {{.format = rhi::Format::rgba32_float, .blend = under}},
+        .depth = {.format = rhi::Format::d32_float, .test = true, .compare = rhi::Compare::equal},
+        .debug_name = "peel.layer"};
+    if (desc_.audit) shade.colors.push_back({.format = rhi::Format::r32_float, .blend = add});
+    PELLUCID_CHECK(layer_.create(device, shade, desc_.fragments.culls));
+
+    PELLUCID_TRY(
+        advance_,
+        FullScreenPass<B>::create(
+            device,
+            {.fragment = &shaders::peel_advance_frag,
+             .textures = {{PELLUCID_PEEL_NEXT, targets_.next},
+                          {PELLUCID_PEEL_OPAQUE, targets_.opaque},
+                          {PELLUCID_PEEL_SUM, targets_.sum}},
+             .depth = {.format = rhi::Format::d32_float, .test = true, .write = true, .compare = rhi::Compare::always},
+             .push_bytes = sizeof(gpu::PeelAdvance),
+             .debug_name = "peel.advance"}));
+    constexpr rhi::Blend over{true, one, src_alpha, rhi::BlendOp::add, zero, one, rhi::BlendOp::add};
+    PELLUCID_TRY(composite_,
+                 FullScreenPass<B>::create(device, {.fragment = &shaders::peel_composite_frag,
+                                                    .textures = {{PELLUCID_PEEL_SUM, targets_.sum}},
+                                                    .colors = {{.format = rhi::Format::rgba16_float, .blend = over}},
+                                                    .debug_name = "peel.composite"}));
+    return {};
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::begin(typename B::Commands& cmd) {
+    recorded_ = in_batch_ = 0;
+    probed_ = truncated_ = false;
+    rhi::RenderPassDesc clear{.colors = {{.texture = targets_.sum, .clear = {0, 0, 0, 1}}},
+                              .size = desc_.fragments.size,
+                              .name = "peel.clear"};
+    if (desc_.audit) clear.colors.push_back({.texture = targets_.count});
+    cmd.begin_render(clear);
+    cmd.end_render();
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
+                          std::uint32_t query) const {
+    const bool first = recorded_ == 0;
+    rhi::RenderPassDesc pass =
+        desc_.fragments.render_pass(first ? targets_.opaque : targets_.layer, scene, "peel.nearest");
+    pass.colors.push_back({.texture = targets_.next, .clear = {-1, 0, 0, 0}});
+    cmd.begin_render(pass);
+    cmd.begin_query(queries_, query);
+    draw_items<B>(cmd, first ? first_ : nearest_, scene, items);
+    cmd.end_query(queries_, query);
+    cmd.end_render();
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::advance(typename B::Commands& cmd) const {
+    const gpu::PeelAdvance push{.min_transmittance = desc_.audit ? -1.0f : desc_.min_transmittance};
+    advance_.record(cmd,
+                    {.depth = {.texture = targets_.layer, .load = rhi::Load::discard}, .size = desc_.fragments.size},
+                    [&](typename B::Commands& c, auto&& draw) {
+                        c.push(rhi::bytes_of(push));
+                        draw();
+                    });
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::layer(typename B::Commands& cmd, const SceneBinding& scene,
+                        std::span<const DrawItem> reversed) const {
+    using enum rhi::Access;
+    rhi::RenderPassDesc pass = desc_.fragments.render_pass(targets_.layer, scene, "peel.layer");
+    pass.colors.push_back({.texture = targets_.sum, .load = rhi::Load::load});
+    if (desc_.audit) pass.colors.push_back({.texture = targets_.count, .load = rhi::Load::load});
+    pass.uses.push_back(rhi::use(targets_.next, sampled));
+    pass.uses.push_back(rhi::use(targets_.opaque, sampled));
+    cmd.begin_render(pass);
+    draw_items<B>(cmd, layer_, scene, reversed, layer_group_);
+    cmd.end_render();
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::record_layers(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
+                                std::span<const DrawItem> reversed) {
+    cmd.reset(queries_);
+    for (in_batch_ = 0; in_batch_ < batch_; ++in_batch_, ++recorded_) {
+        nearest(cmd, scene, items, in_batch_);
+        if (desc_.max_layers != 0 && recorded_ == desc_.max_layers) {
+            ++in_batch_;
+            probed_ = true;
+            return;
+        }
+        advance(cmd);
+        layer(cmd, scene, reversed);
+    }
+}
+
+template <rhi::Backend B>
+Result<bool> PeelPass<B>::more(typename B::Device& device) {
+    std::array<std::uint64_t, batch_limit> samples{};
+    PELLUCID_CHECK(device.results(queries_, 0, std::span(samples).first(in_batch_)));
+    const auto end = samples.begin() + in_batch_;
+    const auto empty = std::find(samples.begin(), end, std::uint64_t{0});
+    if (empty == end && !probed_) {
+        batch_ = std::min(2 * batch_, batch_limit);
+        return true;
+    }
+    truncated_ = empty == end;
+    const std::uint32_t before = recorded_ + (probed_ ? 1 : 0) - in_batch_;
+    found_ = truncated_ ? desc_.max_layers : before + static_cast<std::uint32_t>(empty - samples.begin());
+    batch_ = std::min(found_ + 1, batch_limit);  // the next frame is like this one
+    return false;
+}
+
+template <rhi::Backend B>
+void PeelPass<B>::composite(typename B::Commands& cmd) const {
+    composite_.record(cmd,
+                      {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
+}
+
+}  // namespace pellucid

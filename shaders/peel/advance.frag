@@ -1,0 +1,19 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: MIT
+// Makes the nearest depth found the layer that the next passes test against.  Where a pixel is done, depth 0: no fragment
+// is behind it, so the depth test ends them all before they are shaded.
+#include "common/prelude.glsl"
+#include "pellucid/gpu/peel.h"
+
+PASS_TEXTURE(PELLUCID_PEEL_NEXT) sampler2D next;
+PASS_TEXTURE(PELLUCID_PEEL_OPAQUE) sampler2D opaque_depth;
+PASS_TEXTURE(PELLUCID_PEEL_SUM) sampler2D sum;
+PUSH_BLOCK(Push) { PeelAdvance advance; };
+
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    float depth = texelFetch(next, at, 0).r;
+    bool done = depth < texelFetch(opaque_depth, at, 0).r || texelFetch(sum, at, 0).a <= advance.min_transmittance;
+    gl_FragDepth = done ? 0.0 : depth;
+}
