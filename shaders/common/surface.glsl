@@ -34,7 +34,8 @@ struct Surface {
     float roughness;
     float occlusion;
     bool unlit;
-    bool discarded; // alpha mask
+    bool premultiplied; // radiance is not multiplied by alpha
+    bool discarded;     // alpha mask
 };
 
 // Which array is uniform within a draw but need not be within a workgroup: constant indices, explicit gradients.
@@ -108,6 +109,7 @@ Surface load_surface(MaterialRecord m, Attributes a) {
     if (needs(PELLUCID_NEED_EMISSIVE)) s.emissive = m.emissive * sample_use(m.emissive_texture, a, vec4(1.0)).rgb;
     s.unlit = needs(PELLUCID_NEED_UNLIT) && (m.flags & PELLUCID_MATERIAL_UNLIT) != 0u;
     if (s.unlit) s.emissive = base.rgb;
+    s.premultiplied = (m.flags & PELLUCID_MATERIAL_PREMULTIPLIED) != 0u;
     s.normal = shading_normal(m, a);
     return s;
 }

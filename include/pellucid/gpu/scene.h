@@ -8,8 +8,9 @@
 
 #define PELLUCID_MATERIAL_DOUBLE_SIDED 1u
 #define PELLUCID_MATERIAL_UNLIT 2u
-#define PELLUCID_MATERIAL_MASK 4u   // discard where alpha < cutoff
-#define PELLUCID_MATERIAL_BLEND 8u  // alpha is kept; it is 1 everywhere else
+#define PELLUCID_MATERIAL_MASK 4u            // discard where alpha < cutoff
+#define PELLUCID_MATERIAL_BLEND 8u           // alpha is kept; it is 1 everywhere else
+#define PELLUCID_MATERIAL_PREMULTIPLIED 16u  // radiance is not multiplied by alpha
 
 #define PELLUCID_DRAW_MIRRORED 1u  // the instance's matrix has a negative determinant: facing is inverted
 #define PELLUCID_DRAW_COLORS 2u    // the mesh has vertex colours; an interpolated 1 need not be 1, so none are not read

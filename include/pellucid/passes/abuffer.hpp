@@ -44,7 +44,7 @@ public:
     [[nodiscard]] std::uint64_t pool_bytes() const {
         return (std::uint64_t{pool_rows_} << PELLUCID_ABUFFER_WIDTH_BITS) * PELLUCID_ABUFFER_NODE_BYTES;
     }
-    /// r32_uint `[h, w]`: fragments composited in each pixel that has any; 1 × 1 unless `audit`.
+    /// r32_uint `[h, w]`: fragments composited in each pixel; 1 × 1 unless `audit`.
     [[nodiscard]] rhi::Texture composited() const { return audit_; }
 
 private:
@@ -284,6 +284,10 @@ void AbufferPass<B>::resolve(typename B::Commands& cmd, const StripBand& band) c
 template <rhi::Backend B>
 void AbufferPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                             std::span<const DrawItem> items) const {
+    if (desc_.audit) {
+        cmd.begin_render({.colors = {{.texture = audit_}}, .size = desc_.fragments.size, .name = "abuffer.audit"});
+        cmd.end_render();
+    }
     for (const StripBand& band : bands_) {
         place(cmd, band);
         fill(cmd, band, depth, scene, items);

@@ -11,9 +11,10 @@
 /// they are composited (composite.hpp) up to the first opaque one, or else the background.
 ///
 /// Surfaces are those of surface.hpp, lit by lighting.hpp; unlit ones show their base colour.  A blended fragment's
-/// whole radiance, lit, emitted or unlit, is multiplied by its alpha.  Textures are sampled (texture.hpp) with fine
-/// derivatives: differences between the centres of the pixel's 2×2 quad, attributes extrapolated on the triangle's
-/// plane.  Each texture keeps its own size and sampler, whatever a GPU merges.  Radiance has no upper limit here.
+/// whole radiance, lit, emitted or unlit, is multiplied by its alpha, unless its material is premultiplied.  Textures
+/// are sampled (texture.hpp) with fine derivatives: differences between the centres of the pixel's 2×2 quad, attributes
+/// extrapolated on the triangle's plane.  Each texture keeps its own size and sampler, whatever a GPU merges.  Radiance
+/// has no upper limit here.
 ///
 /// Link `pellucid::reference` (it needs TBB).
 #include <cstdint>
@@ -61,7 +62,7 @@ struct Fragment {
     std::uint32_t instance = 0;         ///< index into Scene::instances
     double alpha = 1;                   ///< [0,1] share of what lies behind that it hides
     glm::dvec3 radiance{0, 0, 0};       ///< [cd/m²] straight: before alpha
-    glm::dvec3 premultiplied{0, 0, 0};  ///< [cd/m²] what it adds itself: radiance · alpha
+    glm::dvec3 premultiplied{0, 0, 0};  ///< [cd/m²] what it adds itself: radiance · alpha, or radiance
     bool opaque = false;                ///< of an opaque or masked material: it ends the pixel
 };
 

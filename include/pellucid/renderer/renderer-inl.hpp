@@ -48,6 +48,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     declare_tonemap();
     graph_.keep(hdr_);
     graph_.keep(display_);
+    if (needs_.translucent) graph_.keep(depth_);
     if (settings_.keep_gbuffer && needs_.opaque) {
         for (const GraphTexture t : colors_) graph_.keep(t);
         graph_.keep(depth_);
@@ -141,6 +142,7 @@ void Renderer<B>::declare_tonemap() {
 
 template <rhi::Backend B>
 Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
+    camera_ = camera;
     RenderFrame<B> frame(*device_, *scene_, *clock_, camera, settings_);
     PELLUCID_CHECK(frame.open());
     PELLUCID_CHECK(graph_.execute(frame, [&](const char* name, auto&& record) {
@@ -149,6 +151,12 @@ Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
         frame.end_scope();
     }));
     return frame.close();
+}
+
+template <rhi::Backend B>
+Result<Image<std::uint32_t>> Renderer<B>::count_layers() {
+    RenderFrame<B> frame(*device_, *scene_, *clock_, camera_, settings_);
+    return translucent_.count_layers(*device_, frame);
 }
 
 template <rhi::Backend B>

@@ -53,6 +53,12 @@ public:
     /// settings.keep_gbuffer and an opaque surface in the scene, else `invalid_argument`.
     [[nodiscard]] Result<rhi::Texels> read_gbuffer(std::size_t index);
 
+    /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
+    /// own and waits.
+    [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
+    /// `[h, w, 1]` fragments that the last frame composited in each pixel, with settings.audit; waits.
+    [[nodiscard]] Result<Image<std::uint32_t>> read_composited() { return translucent_.read_composited(*device_); }
+
     [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] const SceneNeeds& needs() const noexcept { return needs_; }
     [[nodiscard]] const RenderSettings& settings() const noexcept { return settings_; }
@@ -83,6 +89,7 @@ private:
     Translucent<B> translucent_;
     std::optional<TonemapPass<B>> tonemap_pass_;
     std::optional<FrameClock<B>> clock_;
+    Camera camera_;  ///< of the last frame
     std::vector<std::string> warnings_;
     std::uint32_t pipelines_ = 0;
 };

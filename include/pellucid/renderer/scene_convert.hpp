@@ -101,7 +101,8 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
     r.occlusion_strength = m.occlusion_strength;
     r.flags = (m.double_sided ? PELLUCID_MATERIAL_DOUBLE_SIDED : 0u) | (m.unlit ? PELLUCID_MATERIAL_UNLIT : 0u) |
               (m.alpha_mode == AlphaMode::mask ? PELLUCID_MATERIAL_MASK : 0u) |
-              (m.alpha_mode == AlphaMode::blend ? PELLUCID_MATERIAL_BLEND : 0u);
+              (m.alpha_mode == AlphaMode::blend ? PELLUCID_MATERIAL_BLEND : 0u) |
+              (m.premultiplied ? PELLUCID_MATERIAL_PREMULTIPLIED : 0u);
     r.base_color_texture = gpu_texture_use(m.base_color_texture, plan.as_color);
     r.metallic_roughness_texture = gpu_texture_use(m.metallic_roughness_texture, plan.as_data);
     r.normal_texture = gpu_texture_use(m.normal_texture, plan.as_data);

@@ -209,4 +209,40 @@ void Translucent<B>::declare_abuffer() {
         });
 }
 
+template <rhi::Backend B>
+Result<Image<std::uint32_t>> Translucent<B>::read_numbers(typename B::Device& device, rhi::Texture texture,
+                                                          rhi::Format format) const {
+    rhi::Texels texels;
+    PELLUCID_TRY(texels, rhi::download<B>(device, texture, {.size = settings_->size, .format = format}));
+    Image<std::uint32_t> out(settings_->size.width, settings_->size.height, 1);
+    for (std::uint32_t y = 0; y < out.height; ++y)
+        for (std::uint32_t x = 0; x < out.width; ++x)
+            *out.texel(x, y) = format == rhi::Format::r32_uint ? texels.at<std::uint32_t>(x, y)
+                                                               : static_cast<std::uint32_t>(texels.at<float>(x, y));
+    return out;
+}
+
+template <rhi::Backend B>
+Result<Image<std::uint32_t>> Translucent<B>::count_layers(typename B::Device& device, Frame<B>& frame) {
+    if (scene_->translucent().empty()) return Image<std::uint32_t>(settings_->size.width, settings_->size.height, 1);
+    if (!count_) {
+        PELLUCID_TRY(count_, LayerCountPass<B>::create(device, fragments()));
+    }
+    PELLUCID_CHECK(frame.open());
+    count_->record(frame.commands(), (*this)[targets_.depth], scene_->binding(), scene_->translucent());
+    rhi::Ticket ticket{};
+    PELLUCID_TRY(ticket, frame.close());
+    PELLUCID_CHECK(device.wait(ticket));
+    return read_numbers(device, count_->counts(), rhi::Format::r32_float);
+}
+
+template <rhi::Backend B>
+Result<Image<std::uint32_t>> Translucent<B>::read_composited(typename B::Device& device) const {
+    if (settings_->audit && abuffer_) return read_numbers(device, abuffer_->composited(), rhi::Format::r32_uint);
+    if (settings_->audit && peel_) return read_numbers(device, peel_->count(), rhi::Format::r32_float);
+    return Error{Errc::invalid_argument, std::string("nobody counts what the method '") +
+                                             name(settings_->transparency) +
+                                             "' composites: set audit, and use peel or abuffer"};
+}
+
 }  // namespace pellucid

@@ -10,6 +10,7 @@
 #include <pellucid/passes/peel_seed.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
+#include <pellucid/rhi/readback.hpp>
 #include <bit>
 #include <optional>
 
@@ -26,6 +27,11 @@ public:
     void declare(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs, const RenderSettings& settings,
                  const Targets& targets);
 
+    /// Counts the fragments of each pixel in a frame of its own, opened and closed here, and waits.  `[h, w, 1]`.
+    [[nodiscard]] Result<Image<std::uint32_t>> count_layers(typename B::Device& device, Frame<B>& frame);
+    /// What each pixel composited in the last frame; waits.  `invalid_argument` unless the method was audited.
+    [[nodiscard]] Result<Image<std::uint32_t>> read_composited(typename B::Device& device) const;
+
     [[nodiscard]] std::uint32_t pipelines() const noexcept { return pipelines_; }  ///< built so far
 
 private:
@@ -36,6 +42,8 @@ private:
     void declare_layer_count();
     void declare_abuffer();
 
+    [[nodiscard]] Result<Image<std::uint32_t>> read_numbers(typename B::Device& device, rhi::Texture texture,
+                                                            rhi::Format format) const;
     [[nodiscard]] GraphTexture target(rhi::Format format, rhi::TextureUsage usage, const char* debug_name);
     [[nodiscard]] rhi::Texture operator[](GraphTexture t) const { return (*graph_)[t]; }
     [[nodiscard]] FragmentDesc fragments() const {

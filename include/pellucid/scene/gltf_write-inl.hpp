@@ -283,6 +283,11 @@ private:
 }  // namespace detail
 
 PELLUCID_INLINE Result<void> write_gltf(const std::string& path, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i].premultiplied)
+            return Error{Errc::invalid_argument, path + ": material " + std::to_string(i) + " (\"" +
+                                                     scene.materials[i].name +
+                                                     "\") is premultiplied, which glTF cannot say: leave it out"};
     PELLUCID_TRY(const std::vector<std::byte> bytes, detail::GltfWriter(scene).write(path));
     return detail::write_file(path, bytes);
 }

@@ -14,7 +14,8 @@ namespace pellucid {
 /// own rules: every mesh is used or not, but has triangles; tangents only where the material has a normal map; unit
 /// normals; rigid views; every texture and image used by a material.  A directional or spot light's position and
 /// direction become a node's frame.
-/// Errors: Errc::invalid_argument where an index or a size of the scene is wrong, Errc::io.
+/// Errors: Errc::invalid_argument where an index or a size of the scene is wrong or a material is premultiplied,
+/// Errc::io.
 Result<void> write_gltf(const std::string& path, const Scene& scene);
 
 }  // namespace pellucid

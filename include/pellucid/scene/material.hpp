@@ -47,7 +47,10 @@ struct Material {
     float alpha_cutoff = 0.5f;     ///< for AlphaMode::mask
     AlphaMode alpha_mode = AlphaMode::opaque;
     bool double_sided = false;
-    bool unlit = false;                     ///< KHR_materials_unlit
+    bool unlit = false;  ///< KHR_materials_unlit
+    /// AlphaMode::blend: radiance is already multiplied by alpha, as fire and glows are drawn: with alpha 0 it is
+    /// added. glTF cannot say it.
+    bool premultiplied = false;
     TextureRef base_color_texture;          ///< sRGB colour, linear alpha
     TextureRef metallic_roughness_texture;  ///< linear: g roughness, b metallic
     TextureRef normal_texture;              ///< linear: tangent-space normal, [0,1] → [-1,1]

@@ -148,7 +148,8 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
         fragment.radiance = surface_radiance(surface, at.position, direction_to_eye(prepared.camera, at.position),
                                              options.lights, options.ambient, options.brdf);
     }
-    fragment.premultiplied = fragment.radiance * fragment.alpha;
+    fragment.premultiplied =
+        material.factors.premultiplied && draw.blended() ? fragment.radiance : fragment.radiance * fragment.alpha;
     return fragment;
 }
 
