@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Pixels of translucent layers in double, how far number formats may move a method from them, and frames with the
+/// counts of their fragments.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <functional>
+#include <pellucid/measure/image_error.hpp>
+#include <pellucid/measure/order_variance.hpp>
+#include <pellucid/reference/renderer.hpp>
+#include <pellucid/renderer/renderer.hpp>
+#include <span>
+#include <string>
+#include <vector>
+#include "support/devices.hpp"
+
+namespace pellucid::test {
+
+/// One fragment of a pixel, as it composites.
+struct Layer {
+    glm::dvec3 color{0, 0, 0};  ///< premultiplied radiance
+    double alpha = 0;
+};
+[[nodiscard]] inline Layer straight(const glm::vec4& color) {
+    const glm::dvec4 c(color);
+    return {glm::dvec3(c) * c.a, c.a};
+}
+[[nodiscard]] inline Layer glow(const glm::vec3& color) {
+    return {glm::dvec3(color), 0};
+}
+
+/// `layers`, nearest first, over what is behind them: Porter and Duff's operator from the back, c + (1 - a) behind.
+[[nodiscard]] inline glm::dvec3 over(std::span<const Layer> layers, glm::dvec3 behind) {
+    for (std::size_t i = layers.size(); i-- > 0;) behind = layers[i].color + (1 - layers[i].alpha) * behind;
+    return behind;
+}
+
+/// The most that a picture holds, in binary16; more becomes this.
+inline constexpr glm::dvec3 most_radiance{65504};
+
+/// What the values of a pixel may be.
+struct Window {
+    glm::dvec3 lower{0, 0, 0}, upper{0, 0, 0};
+    [[nodiscard]] bool holds(const float* texel) const {
+        for (int c = 0; c < 3; ++c)
+            if (!(texel[c] >= lower[c] && texel[c] <= upper[c])) return false;
+        return true;
+    }
+};
+
+/// Largest and least result of `method` for these layers, nearest first.  Everything is >= 0, so both ends come from
+/// the ends of what each operation may give, u = 2^-24 being half a unit in the last place of binary32:
+///   shading: factors, interpolated vertex colours and alpha are multiplied, (1 ± 8u); alpha itself (1 ± 4u);
+///   abuffer stores the colour as binary16, to nearest: (1 ± 2^-11), and below 2^-14, where it has no more digits, a
+///     unit of 2^-24; alpha as the nearest code of unorm16, which is known; its way back to float rounds, (1 ± 2u);
+///   each layer: C + T c and T (1 - a) are two operations each, (1 ± 2u); dual_peel keeps 1 - T instead of T, which
+///     rounds by up to u three times a layer, whatever T is;
+///   the end: C + T behind, two operations; then binary16, limited to 65504: toward zero on software drivers, to a
+///     neighbour elsewhere, a unit being 2^-10 of the value or 2^-24.
+/// `behind` must be held by binary16.
+[[nodiscard]] inline Window window(std::span<const Layer> layers, const glm::dvec3& behind, Transparency method,
+                                   bool software) {
+    constexpr double u = 0x1p-24;
+    const bool stored = method == Transparency::abuffer;
+    const double kept = method == Transparency::dual_peel ? 3 * u : 0.0;
+    Window w;
+    double least = 1, most = 1;  // T
+    for (const Layer& layer : layers) {
+        const glm::dvec3 wide = layer.color * (8 * u + (stored ? 0x1p-11 : 0.0)) + (stored ? 0x1p-24 : 0.0);
+        w.lower = (w.lower + least * glm::max(layer.color - wide, glm::dvec3(0))) * (1 - 2 * u);
+        w.upper = (w.upper + most * (layer.color + wide)) * (1 + 2 * u);
+        double moved = 6 * u * layer.alpha;
+        if (stored) moved += std::abs(std::round(layer.alpha * 65535) / 65535 - layer.alpha);
+        if (layer.alpha != 0 && layer.alpha != 1) {  // by these T is multiplied exactly
+            least *= (1 - std::min(1.0, layer.alpha + moved)) * (1 - 2 * u);
+            most *= (1 - std::max(0.0, layer.alpha - moved)) * (1 + 2 * u);
+        } else {
+            least *= 1 - layer.alpha;
+            most *= 1 - layer.alpha;
+        }
+        least = std::max(0.0, least - kept);
+        most += kept;
+    }
+    w.lower = (w.lower + least * behind) * (1 - 2 * u);
+    w.upper = (w.upper + most * behind) * (1 + 2 * u);
+    w.lower = w.lower * (1 - 0x1p-10) - 0x1p-24;
+    if (!software) w.upper = w.upper * (1 + 0x1p-10) + 0x1p-24;
+    return {glm::min(w.lower, most_radiance), glm::min(w.upper, most_radiance)};
+}
+
+/// A scene of which every pixel is known.
+struct KnownPixel {
+    std::vector<Layer> layers;    ///< nearest first, as they must be composited
+    glm::dvec3 behind{0, 0, 0};   ///< what is opaque, or the background; held by binary16
+    glm::dvec3 radiance{0, 0, 0};  ///< the answer, by a formula of the test
+};
+struct KnownScene {
+    static constexpr std::size_t unknown = ~std::size_t{0};
+    std::string name;
+    Scene scene;
+    Camera camera;
+    RenderSettings settings;  ///< size and background; nothing else
+    std::vector<KnownPixel> pixels;
+    std::function<std::size_t(std::uint32_t x, std::uint32_t y)> at;  ///< index into `pixels`, or unknown
+};
+
+/// A pixel whose answer needs no formula of its own.
+[[nodiscard]] inline KnownPixel known_pixel(std::vector<Layer> nearest_first, const glm::dvec3& behind = {0, 0, 0}) {
+    const glm::dvec3 radiance = over(nearest_first, behind);
+    return {std::move(nearest_first), behind, radiance};
+}
+
+/// One frame of a method.
+struct Composited {
+    ImageF hdr;
+    Image8 display;
+    Image<std::uint32_t> counted;     ///< fragments in front of what is opaque
+    Image<std::uint32_t> composited;  ///< of them; empty unless settings.audit
+};
+template <rhi::Backend B>
+[[nodiscard]] Composited composite(typename B::Device& device, const Scene& scene, const Camera& camera,
+                                   const RenderSettings& settings) {
+    const auto renderer = must(Renderer<B>::create(device, scene, settings));
+    (void)must(renderer->render(camera));
+    Composited out{must(renderer->read_hdr()), must(renderer->read_display()), {}, {}};
+    if (settings.audit) out.composited = must(renderer->read_composited());
+    out.counted = must(renderer->count_layers());
+    return out;
+}
+template <rhi::Backend B>
+[[nodiscard]] Composited composite(typename B::Device& device, const KnownScene& known, Transparency method,
+                                   bool audit = false) {
+    RenderSettings settings = known.settings;
+    settings.transparency = method;
+    settings.audit = audit;
+    return composite<B>(device, known.scene, known.camera, settings);
+}
+
+/// How a picture stands to what is known of it.
+struct Verdict {
+    std::size_t pixels = 0, outside = 0;  ///< judged; of them out of their window
+    double worst = 0;                     ///< largest error over max(1, answer)
+    std::string first;                    ///< the first pixel that is outside
+};
+[[nodiscard]] inline std::string to_text(const float* t) {
+    return "(" + std::to_string(t[0]) + ", " + std::to_string(t[1]) + ", " + std::to_string(t[2]) + ")";
+}
+[[nodiscard]] inline std::string to_text(const glm::dvec3& v) {
+    return "(" + std::to_string(v.x) + ", " + std::to_string(v.y) + ", " + std::to_string(v.z) + ")";
+}
+[[nodiscard]] inline Verdict judge(const ImageF& hdr, const KnownScene& known, Transparency method, bool software) {
+    std::vector<Window> windows;
+    for (const KnownPixel& p : known.pixels) windows.push_back(window(p.layers, p.behind, method, software));
+    Verdict out;
+    for (std::uint32_t y = 0; y < hdr.height; ++y)
+        for (std::uint32_t x = 0; x < hdr.width; ++x) {
+            const std::size_t which = known.at(x, y);
+            if (which == KnownScene::unknown) continue;
+            const float* got = hdr.texel(x, y);
+            const glm::dvec3 wanted = glm::min(known.pixels[which].radiance, most_radiance);
+            ++out.pixels;
+            for (int c = 0; c < 3; ++c)
+                out.worst = std::max(out.worst, std::abs(got[c] - wanted[c]) / std::max(1.0, wanted[c]));
+            if (windows[which].holds(got) && got[3] == 1.0f) continue;
+            if (out.outside++ == 0)
+                out.first = "pixel (" + std::to_string(x) + ", " + std::to_string(y) + "): " + to_text(got) +
+                            " instead of " + to_text(wanted) + ", which may be " + to_text(windows[which].lower) +
+                            " to " + to_text(windows[which].upper);
+        }
+    return out;
+}
+
+/// Values that differ.
+template <class T>
+[[nodiscard]] std::size_t different(const Image<T>& a, const Image<T>& b) {
+    REQUIRE(a.data.size() == b.data.size());
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < a.data.size(); ++i) count += a.data[i] != b.data[i];
+    return count;
+}
+
+/// Pixels of `counts` that have another number than `wanted(x, y)`.
+template <class F>
+[[nodiscard]] std::size_t miscounted(const Image<std::uint32_t>& counts, F&& wanted) {
+    std::size_t wrong = 0;
+    for (std::uint32_t y = 0; y < counts.height; ++y)
+        for (std::uint32_t x = 0; x < counts.width; ++x) wrong += *counts.texel(x, y) != wanted(x, y);
+    return wrong;
+}
+
+/// The formula's answers are what compositing them in double gives, and the reference renderer draws them.
+inline void check_known(const KnownScene& known) {
+    INFO(known.name);
+    REQUIRE_FALSE(known.pixels.empty());
+    for (const KnownPixel& p : known.pixels) {
+        const glm::dvec3 composited = over(p.layers, p.behind);
+        for (int c = 0; c < 3; ++c)
+            REQUIRE(std::abs(composited[c] - p.radiance[c]) <= 1e-11 * std::max(1.0, p.radiance[c]));
+    }
+    const RenderSettings& s = known.settings;
+    const auto reference = must(reference::render(
+        known.scene, known.camera,
+        {.size = s.size, .background = glm::dvec3(s.background), .lights = known.scene.lights, .stability = true}));
+    std::size_t judged = 0, other_layers = 0, other_radiance = 0;
+    for (std::uint32_t y = 0; y < s.size.height; ++y)
+        for (std::uint32_t x = 0; x < s.size.width; ++x) {
+            const std::size_t which = known.at(x, y);
+            if (which == KnownScene::unknown || *reference.stable.texel(x, y) != 255) continue;
+            const KnownPixel& p = known.pixels[which];
+            ++judged;
+            other_layers += *reference.layers.texel(x, y) != p.layers.size();
+            for (int c = 0; c < 3; ++c)  // rounded to float once
+                other_radiance +=
+                    std::abs(reference.radiance.texel(x, y)[c] - p.radiance[c]) > 1e-7 * std::max(1.0, p.radiance[c]);
+        }
+    CHECK(judged > 0);
+    CHECK(other_layers == 0);
+    CHECK(other_radiance == 0);
+}
+
+/// The exact methods draw `known` within their windows and composite every fragment there is; the audit, which goes on
+/// where nothing can be seen any more, changes no bit.
+template <rhi::Backend B>
+void check_exact(typename B::Device& device, const KnownScene& known,
+                 std::initializer_list<Transparency> methods = {Transparency::peel, Transparency::abuffer}) {
+    for (const Transparency method : methods) {
+        const Composited audited = composite<B>(device, known, method, true);
+        const Composited plain = composite<B>(device, known, method);
+        const Verdict verdict = judge(plain.hdr, known, method, device.info().software);
+        INFO(known.name << ", " << name(method) << " on " << B::name << ": " << verdict.first);
+        std::printf("%s, %s on %s: %zu of %zu pixels outside, worst error %.3g\n", known.name.c_str(), name(method),
+                    B::name, verdict.outside, verdict.pixels, verdict.worst);
+        CHECK(verdict.pixels > 0);
+        CHECK(verdict.outside == 0);
+        CHECK(different(plain.hdr, audited.hdr) == 0);
+        CHECK(different(plain.counted, audited.counted) == 0);
+        CHECK(different(audited.composited, audited.counted) == 0);
+        CHECK(miscounted(audited.counted, [&](std::uint32_t x, std::uint32_t y) {
+                  const std::size_t which = known.at(x, y);
+                  return which == KnownScene::unknown
+                             ? *audited.counted.texel(x, y)
+                             : static_cast<std::uint32_t>(known.pixels[which].layers.size());
+              }) == 0);
+    }
+}
+
+/// `method` draws `known` within its window.
+template <rhi::Backend B>
+void check_within(typename B::Device& device, const KnownScene& known, Transparency method) {
+    const Composited drawn = composite<B>(device, known, method);
+    const Verdict verdict = judge(drawn.hdr, known, method, device.info().software);
+    INFO(known.name << ", " << name(method) << " on " << B::name << ": " << verdict.first);
+    std::printf("%s, %s on %s: %zu of %zu pixels outside, worst error %.3g\n", known.name.c_str(), name(method),
+                B::name, verdict.outside, verdict.pixels, verdict.worst);
+    CHECK(verdict.pixels > 0);
+    CHECK(verdict.outside == 0);
+}
+
+/// Both backends draw the same bits: of radiance with exact arithmetic, of display codes to one step without it.
+inline void check_backends_agree([[maybe_unused]] std::span<const KnownScene> scenes) {
+#if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
+    const auto vulkan = make_device<Vulkan>();
+    const auto opengl = make_device<OpenGL>();
+    if (!vulkan || !opengl) return;
+    for (const KnownScene& known : scenes)
+        for (const Transparency method : {Transparency::peel, Transparency::abuffer})
+            for (const bool exact : {true, false}) {
+                RenderSettings settings = known.settings;
+                settings.transparency = method;
+                settings.exact = exact;
+                const Composited a = composite<Vulkan>(*vulkan, known.scene, known.camera, settings);
+                const Composited b = composite<OpenGL>(*opengl, known.scene, known.camera, settings);
+                const auto hdr = must(measure::image_error(a.hdr, b.hdr));
+                const auto display = must(measure::image_error(a.display, b.display));
+                INFO(known.name << ", " << name(method) << (exact ? ", exact" : ""));
+                std::printf("%s, %s%s: %zu of %zu pixels differ between Vulkan and OpenGL\n", known.name.c_str(),
+                            name(method), exact ? ", exact" : "", static_cast<std::size_t>(hdr.different_pixels),
+                            static_cast<std::size_t>(hdr.pixels));
+                CHECK(different(a.counted, b.counted) == 0);
+                CHECK(display.max <= 1);
+                if (exact) CHECK(hdr.bit_equal());
+            }
+#endif
+}
+
+}  // namespace pellucid::test
