@@ -9,10 +9,8 @@ using namespace pellucid::test;
 
 namespace {
 
-const glm::vec4 four[] = {{1, 0.25f, 0.5f, 0},
-                          {0.25f, 1, 0.75f, 1.0f / 255.0f},
-                          {0.5f, 0.125f, 1, 254.0f / 255.0f},
-                          {0.75f, 0.5f, 0.25f, 1}};
+const glm::vec4 four[] = {
+    {1, 0.25f, 0.5f, 0}, {0.25f, 1, 0.75f, 1.0f / 255.0f}, {0.5f, 0.125f, 1, 254.0f / 255.0f}, {0.75f, 0.5f, 0.25f, 1}};
 
 /// A patch for each of the 24 depth orders of the four sheets, drawn in the order `draws`.
 KnownScene orders(const std::array<std::size_t, 4>& draws) {
@@ -54,8 +52,7 @@ KnownScene lights() {
     patches.add(3, 50, glass);
     patches.add(3, 100, glowing(light));
     patches.add(3, 150, glass);
-    expect(3, {straight(glass), glow(light), straight(glass)},
-           0.5 * tint + 0.5 * l + 0.25 * tint + 0.25 * background);
+    expect(3, {straight(glass), glow(light), straight(glass)}, 0.5 * tint + 0.5 * l + 0.25 * tint + 0.25 * background);
     for (std::uint32_t i = 0; i < 6; ++i) patches.add(4, 100 + i, glowing(i % 2 ? light : other));
     expect(4, {glow(light), glow(other), glow(light), glow(other), glow(light), glow(other)},
            3.0 * l + 3.0 * o + background);
@@ -91,10 +88,10 @@ KnownScene bright() {
     }
     for (std::uint32_t i = 0; i < 5; ++i) patches.add(patch, 100 + i, half);
     patches.add(patch, 50, shining(sun, 0.25f));
-    patches.expect(patch++, {{straight(half), straight(half), straight(half), straight(half), straight(half),
-                              {0.25 * s, 0.25}},
-                             {0, 0, 0},
-                             31.0 / 32 * glm::dvec3(half) + 0.25 / 32 * s});
+    patches.expect(patch++,
+                   {{straight(half), straight(half), straight(half), straight(half), straight(half), {0.25 * s, 0.25}},
+                    {0, 0, 0},
+                    31.0 / 32 * glm::dvec3(half) + 0.25 / 32 * s});
     for (std::uint32_t i = 0; i < 5; ++i) patches.add(patch, 100 + i, thick);
     patches.add(patch, 50, glowing(sun));
     const double through = std::pow(1 - static_cast<double>(254.0f / 255.0f), 5);

@@ -35,9 +35,9 @@ KnownScene equal_sheets(std::uint32_t count, float alpha, Extent2D size) {
     std::vector<Sheet> sheets;
     for (std::uint32_t i = 0; i < count; ++i)
         sheets.push_back({.slot = 1 + (i % 2 ? i / 2 : count - 1 - i / 2), .color = glm::vec4(color, alpha)});
-    KnownScene known = uniform_scene(std::to_string(count) + " sheets of alpha " + std::to_string(alpha),
-                                     make_sheets(sheets, 14), size,
-                                     {std::vector<Layer>(count, straight(glm::vec4(color, alpha))), background, {}});
+    KnownScene known =
+        uniform_scene(std::to_string(count) + " sheets of alpha " + std::to_string(alpha), make_sheets(sheets, 14),
+                      size, {std::vector<Layer>(count, straight(glm::vec4(color, alpha))), background, {}});
     const double through = std::pow(1 - static_cast<double>(alpha), count);
     known.pixels[0].radiance = (1 - through) * glm::dvec3(color) + through * background;
     known.settings.background = glm::vec3(background);
@@ -74,8 +74,7 @@ KnownScene one_mesh(std::uint32_t count, std::uint32_t distinct) {
     KnownScene known = patches.known();
     const double a = 0x1p-10, t = 1 - a;
     KnownPixel deep{.behind = glm::dvec3(known.settings.background)};
-    for (std::uint32_t i = 0; i < count; ++i)
-        deep.layers.push_back({glm::dvec3(red_of(count - 1 - i), 1, 0) * a, a});
+    for (std::uint32_t i = 0; i < count; ++i) deep.layers.push_back({glm::dvec3(red_of(count - 1 - i), 1, 0) * a, a});
     // Layer i from the front sends a t^i; those of one colour are 16 apart.
     double red = 0;
     for (std::uint32_t i = 0; i < 16; ++i)

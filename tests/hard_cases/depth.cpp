@@ -9,8 +9,8 @@ using namespace pellucid::test;
 
 namespace {
 
-const glm::vec4 colors[] = {{1, 0.25f, 0.5f, 0.5f}, {0.25f, 1, 0.75f, 0.25f}, {0.5f, 0.125f, 1, 0.75f},
-                            {0.75f, 0.5f, 0.25f, 0.375f}};
+const glm::vec4 colors[] = {
+    {1, 0.25f, 0.5f, 0.5f}, {0.25f, 1, 0.75f, 0.25f}, {0.5f, 0.125f, 1, 0.75f}, {0.75f, 0.5f, 0.25f, 0.375f}};
 
 /// Four sheets in the slots k, k + 1, k + 2 and k + 3 of 2^24: a patch for each order of drawing.  For k >= 2^23 one
 /// slot is one ulp.
@@ -29,9 +29,14 @@ KnownScene ulps(std::uint32_t k) {
 /// On the near plane (depth 1), on the far one (depth 0), an ulp off them, and all of that at once.
 KnownScene ends() {
     constexpr std::uint32_t near = 1u << 24;
-    const std::uint32_t slots[][4] = {{0, 0, 0, 0},       {near, near, near, near},       {0, 0, near, near},
-                                      {0, 1, 0, 1},       {near, near - 1, near, near - 1}, {0, near, 1, near - 1},
-                                      {near, 0, near, 0}, {1u << 23, 0, near, 0}};
+    const std::uint32_t slots[][4] = {{0, 0, 0, 0},
+                                      {near, near, near, near},
+                                      {0, 0, near, near},
+                                      {0, 1, 0, 1},
+                                      {near, near - 1, near, near - 1},
+                                      {0, near, 1, near - 1},
+                                      {near, 0, near, 0},
+                                      {1u << 23, 0, near, 0}};
     Patches patches("the ends of the range", 4, 2, 24, {0.5f, 0.25f, 0.75f});
     for (std::size_t patch = 0; patch < patches.count(); ++patch) {
         std::vector<std::size_t> sheets;

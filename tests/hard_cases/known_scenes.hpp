@@ -24,11 +24,10 @@ public:
         known_.settings = settings_for(1);
         known_.settings.size = {columns * side, rows * side};
         known_.settings.background = background;
-        known_.camera = {.projection = Projection::orthographic, .half_width = 1, .half_height = 1, .near = 0, .far = 1};
+        known_.camera = {
+            .projection = Projection::orthographic, .half_width = 1, .half_height = 1, .near = 0, .far = 1};
         known_.pixels.assign(std::size_t{columns} * rows, known_pixel({}, glm::dvec3(background)));
-        known_.at = [columns](std::uint32_t x, std::uint32_t y) {
-            return std::size_t{y / side} * columns + x / side;
-        };
+        known_.at = [columns](std::uint32_t x, std::uint32_t y) { return std::size_t{y / side} * columns + x / side; };
     }
 
     /// Draws one more sheet over patch `p`.  Slot 2^bits is the near plane, 0 the far one.
@@ -39,8 +38,8 @@ public:
         const double top = 1 - 2 * row / rows_, bottom = 1 - 2 * (row + 1) / rows_;
         const double z = -std::ldexp(static_cast<double>((std::int64_t{1} << bits_) - slot), -static_cast<int>(bits_));
         Mesh mesh;
-        for (const glm::dvec2 corner : {glm::dvec2(left, top), glm::dvec2(left, bottom), glm::dvec2(right, bottom),
-                                        glm::dvec2(right, top)})
+        for (const glm::dvec2 corner :
+             {glm::dvec2(left, top), glm::dvec2(left, bottom), glm::dvec2(right, bottom), glm::dvec2(right, top)})
             mesh.positions.push_back(glm::vec3(glm::dvec3(corner, z)));
         mesh.normals.assign(4, {0, 0, 1});
         mesh.indices = {0, 1, 2, 0, 2, 3};

@@ -64,8 +64,8 @@ KnownScene textured(std::uint32_t n) {
 
 /// A scene with a translucent instance that has no triangle.
 KnownScene nothing() {
-    KnownScene known{.name = "translucent instances without triangles", .camera = flat_camera(),
-                     .settings = settings_for(16)};
+    KnownScene known{
+        .name = "translucent instances without triangles", .camera = flat_camera(), .settings = settings_for(16)};
     known.settings.background = {0.25f, 0.5f, 0.125f};
     Mesh mesh = quad();
     mesh.indices.clear();

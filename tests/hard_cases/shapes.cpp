@@ -22,8 +22,8 @@ std::uint32_t add_plane(Scene& scene, const glm::dvec3& abc, const Material& mat
 /// Planes z = a x + b y + c before an orthographic camera: at every pixel their order is that of three numbers.
 KnownScene intersecting() {
     const glm::dvec3 planes[] = {{0.75, 0.25, 0.01}, {-0.5, 0.375, -0.02}, {0.0625, -0.75, 0}, {0.25, 0.1875, 0.1}};
-    const glm::vec4 colors[] = {{1, 0.25f, 0.125f, 0.5f}, {0.25f, 1, 0.5f, 0.25f}, {0.125f, 0.5f, 1, 0.75f},
-                                {0.75f, 0.75f, 0.25f, 0.625f}};
+    const glm::vec4 colors[] = {
+        {1, 0.25f, 0.125f, 0.5f}, {0.25f, 1, 0.5f, 0.25f}, {0.125f, 0.5f, 1, 0.75f}, {0.75f, 0.75f, 0.25f, 0.625f}};
     KnownScene known{.name = "four planes through each other", .camera = flat_camera(), .settings = settings_for(n)};
     for (int i = 0; i < 4; ++i) add_plane(known.scene, planes[i], flat(colors[i], AlphaMode::blend));
     double closest = 1;
@@ -49,8 +49,8 @@ KnownScene intersecting() {
 double distance_to(const Camera& camera, std::uint32_t x, std::uint32_t y, const glm::dvec3 (&p)[3], double& margin) {
     const double t = std::tan(0.5 * camera.vertical_fov);
     const glm::dvec3 eye(camera.world_from_view[3]);
-    const glm::dvec3 ray = glm::dmat3(camera.world_from_view) *
-                           glm::dvec3(((2 * x + 1.0) / n - 1) * t, (1 - (2 * y + 1.0) / n) * t, -1);
+    const glm::dvec3 ray =
+        glm::dmat3(camera.world_from_view) * glm::dvec3(((2 * x + 1.0) / n - 1) * t, (1 - (2 * y + 1.0) / n) * t, -1);
     // eye + s ray = p0 + u (p1 - p0) + v (p2 - p0), by Cramer's rule
     const glm::dvec3 a = p[1] - p[0], b = p[2] - p[0], c = eye - p[0];
     const double det = glm::determinant(glm::dmat3(a, b, -ray));
@@ -63,7 +63,8 @@ double distance_to(const Camera& camera, std::uint32_t x, std::uint32_t y, const
 
 /// Three triangles in a cycle, and by rays through pixel centres what they look like.
 KnownScene cyclic() {
-    KnownScene known{.name = "three triangles in a cycle", .scene = make_cyclic_triangles(), .settings = settings_for(n)};
+    KnownScene known{
+        .name = "three triangles in a cycle", .scene = make_cyclic_triangles(), .settings = settings_for(n)};
     known.camera = known.scene.cameras.front();
     std::vector<std::size_t> which;
     std::size_t overlapping = 0;
@@ -111,12 +112,11 @@ KnownScene shells() {
 
 /// A box of one colour before and another behind: both faces, one, or none is seen, mirrored or not.
 KnownScene sides() {
-    KnownScene known{.name = "one-sided and double-sided, mirrored and not", .camera = flat_camera(),
-                     .settings = settings_for(n)};
+    KnownScene known{
+        .name = "one-sided and double-sided, mirrored and not", .camera = flat_camera(), .settings = settings_for(n)};
     const glm::vec4 front{1, 0.25f, 0.125f, 0.5f}, back{0.125f, 0.5f, 1, 0.25f};
     Mesh box = make_cube(0.5f);
-    for (const glm::vec3& normal : box.normals)
-        box.colors.push_back(normal.z > 0.5f ? front : back);
+    for (const glm::vec3& normal : box.normals) box.colors.push_back(normal.z > 0.5f ? front : back);
     known.pixels.push_back(known_pixel({}));
     for (int i = 0; i < 8; ++i) {
         const bool double_sided = i % 2, mirrored = i / 2 % 2, turned = i / 4;

@@ -92,8 +92,8 @@ struct Window {
 
 /// A scene of which every pixel is known.
 struct KnownPixel {
-    std::vector<Layer> layers;    ///< nearest first, as they must be composited
-    glm::dvec3 behind{0, 0, 0};   ///< what is opaque, or the background; held by binary16
+    std::vector<Layer> layers;     ///< nearest first, as they must be composited
+    glm::dvec3 behind{0, 0, 0};    ///< what is opaque, or the background; held by binary16
     glm::dvec3 radiance{0, 0, 0};  ///< the answer, by a formula of the test
 };
 struct KnownScene {
@@ -239,9 +239,8 @@ void check_exact(typename B::Device& device, const KnownScene& known,
         CHECK(different(audited.composited, audited.counted) == 0);
         CHECK(miscounted(audited.counted, [&](std::uint32_t x, std::uint32_t y) {
                   const std::size_t which = known.at(x, y);
-                  return which == KnownScene::unknown
-                             ? *audited.counted.texel(x, y)
-                             : static_cast<std::uint32_t>(known.pixels[which].layers.size());
+                  return which == KnownScene::unknown ? *audited.counted.texel(x, y)
+                                                      : static_cast<std::uint32_t>(known.pixels[which].layers.size());
               }) == 0);
     }
 }
