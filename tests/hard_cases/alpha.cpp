@@ -2,7 +2,7 @@
 // Alpha at the ends of its range, light that hides nothing, and radiance far above 1.
 #include <algorithm>
 #include <array>
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;

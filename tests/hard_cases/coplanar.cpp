@@ -2,7 +2,7 @@
 // Fragments of equal depth, bit by bit: the later primitive is in front, and translucent ones are in front of opaque
 // ones.  One is never lost and never composited twice.
 #include <algorithm>
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;

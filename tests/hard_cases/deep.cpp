@@ -2,7 +2,7 @@
 // Many thin layers: what is lost in one of them is lost hundreds of times.
 #include <algorithm>
 #include <numeric>
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;

@@ -2,7 +2,7 @@
 // Depths as close as float32 has them, and the very ends of the range.
 #include <algorithm>
 #include <array>
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;

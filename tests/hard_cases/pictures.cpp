@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures of awkward sizes, of nothing, and alpha that comes from textures.
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;

@@ -2,7 +2,7 @@
 // Surfaces that no order of whole objects gets right, and surfaces seen from their other side.
 #include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
-#include "hard_cases/known_scenes.hpp"
+#include "hard_cases/check_known.hpp"
 
 using namespace pellucid;
 using namespace pellucid::test;
