@@ -1,9 +1,19 @@
 # A pass is one stem: header, shared struct file, shaders, reference, test, benchmark.  cmake -DSOURCE=<root> -P …
-# Headers of passes/ that are no pass.
 cmake_minimum_required(VERSION 3.25)
-set(shared draw_list)
-# Passes that compute nothing of their own (another stem's reference covers them).
-set(without_reference sorted_forward)
+# Headers of passes/ that are no pass.
+set(shared draw_list fragment_desc full_screen strip_bands)
+# Methods of transparency and what they share: their reference is that of whole pictures, reference/renderer.hpp and
+# composite.hpp, and one program may measure them beside each other.
+set(transparency sorted_forward layer_count abuffer peel peel_seed dual_peel interleaved)
+# Passes that a method cannot do without: whoever measures the method measures them.
+set(parts_of_methods layer_count)
+
+set(compared "")
+file(GLOB sources ${SOURCE}/benchmarks/transparency.cpp ${SOURCE}/benchmarks/transparency/*.hpp)
+foreach(file IN LISTS sources)
+  file(READ ${file} text)
+  string(APPEND compared "${text}")
+endforeach()
 
 set(stems 0)
 file(READ ${SOURCE}/include/pellucid/renderer/instances.hpp instances)
@@ -19,9 +29,16 @@ foreach(header IN LISTS headers)
     continue()
   endif()
   math(EXPR stems "${stems} + 1")
-  set(parts include/pellucid/gpu/${stem}.h shaders/${stem} tests/passes/${stem}.cpp benchmarks/${stem}.cpp)
-  if(NOT stem IN_LIST without_reference)
+  set(parts include/pellucid/gpu/${stem}.h shaders/${stem} tests/passes/${stem}.cpp)
+  if(stem IN_LIST transparency)
+    list(APPEND parts include/pellucid/reference/renderer.hpp include/pellucid/reference/composite.hpp)
+  else()
     list(APPEND parts include/pellucid/reference/${stem}.hpp)
+  endif()
+  if(stem IN_LIST parts_of_methods OR (stem IN_LIST transparency AND compared MATCHES "Transparency::${stem}[^a-z_]"))
+    # measured there
+  else()
+    list(APPEND parts benchmarks/${stem}.cpp)
   endif()
   foreach(part IN LISTS parts)
     if(NOT EXISTS ${SOURCE}/${part})
