@@ -111,6 +111,7 @@ inline void write(JsonWriter& json, const MethodRow& row) {
     json.member("scaled_max", q.scaled->max).member("nonfinite", q.scaled->nonfinite);
     json.member("ldr_flip_mean", q.ldr_flip->mean).member("psnr", q.tone_mapped_psnr->psnr);
     json.member("unstable_scaled_rmse", q.coverage->unstable.rmse);
+    if (row.added_error > 0) json.member("added_error", row.added_error);
     if (row.kind != RowKind::peer)
         json.member("bytes", row.bytes).member("own_bytes", row.own_bytes).member("draws", row.draws);
     json.end_object();
@@ -124,6 +125,7 @@ inline void write(JsonWriter& json, const SceneResult& scene) {
     json.member("covered", truth.covered).member("fragments", truth.fragments);
     json.member("pixels", truth.stable.data.size()).member("unstable_pixels", truth.unstable);
     json.member("binary16_floor_scaled_rmse", truth.floor).member("reference_seconds", truth.seconds);
+    json.member("exact_bound", scene.exact_bound);
     json.key("notes").begin_array();
     for (const std::string& note : scene.notes) json.value(note);
     json.end_array();

@@ -33,6 +33,7 @@ struct MethodRow {
     double peer_ratio = 0;           ///< as `ratio`, to the peer's exact method
     std::uint32_t draws = 0;         ///< a frame
     measure::QualityReport quality;  ///< of stable pixels
+    double added_error = 0;          ///< of an exact method: `detail::added_error`
     std::uint64_t bytes = 0;         ///< of GPU memory that the renderer reports
     std::uint64_t own_bytes = 0;     ///< of them what there is not without translucent surfaces
 };
@@ -52,6 +53,7 @@ struct SceneResult {
     std::string name, title;
     std::uint64_t triangles = 0;
     const Truth* truth = nullptr;
+    double exact_bound = 0;  ///< of `MethodRow::added_error`
     std::vector<MethodRow> rows;
     std::vector<std::string> notes;  ///< a sentence each
 };
