@@ -11,6 +11,7 @@
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
 #include <map>
+#include <tuple>
 #include "support/pass_program.hpp"
 #include "transparency/measure.hpp"
 #include "transparency/report.hpp"
@@ -154,7 +155,7 @@ private:
     }
 
     Result<const Truth*> truth_of(const Case& c, Extent2D size) {
-        const std::string key = c.name + " " + std::to_string(size.width) + "x" + std::to_string(size.height);
+        const auto key = std::make_tuple(&c, size.width, size.height);
         auto found = truths_.find(key);
         if (found == truths_.end()) {
             PELLUCID_TRY(Truth truth, make_truth(c, size));
@@ -190,8 +191,8 @@ private:
     std::vector<Method> methods_;
     std::vector<std::string> names_;
     bool by_default_ = false;
-    std::map<std::string, Case> cases_;
-    std::map<std::string, Truth> truths_;
+    std::map<std::string, Case> cases_;                                              ///< by what `--scene` calls them
+    std::map<std::tuple<const Case*, std::uint32_t, std::uint32_t>, Truth> truths_;  ///< by case and size
     std::vector<BackendResult> results_;
     std::string markdown_;
 };

@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// Another program, spoken with line by line: a peer that takes its turn in every round.
+#include <signal.h>
 #include <spawn.h>
 #include <sys/socket.h>
 #include <sys/wait.h>
@@ -12,23 +13,26 @@
 
 namespace pellucid::bench {
 
-/// A shell command whose standard input and output are ours.  It is expected to end when its input ends, which it does
-/// when this object goes.
+/// A shell command whose standard input and output are ours.  It must end when its input ends, which it does when this
+/// object goes; one that was silent for too long is terminated.
 class Conversation {
 public:
     Conversation() = default;
     Conversation(Conversation&& other) noexcept
         : socket_(std::exchange(other.socket_, -1)),
           process_(std::exchange(other.process_, -1)),
+          hangs_(other.hangs_),
           unread_(std::move(other.unread_)) {}
     Conversation& operator=(Conversation&& other) noexcept {
         std::swap(socket_, other.socket_);
         std::swap(process_, other.process_);
+        std::swap(hangs_, other.hangs_);
         std::swap(unread_, other.unread_);
         return *this;
     }
     ~Conversation() {
         if (socket_ >= 0) close(socket_);
+        if (process_ > 0 && hangs_) kill(-process_, SIGTERM);
         if (process_ > 0) waitpid(process_, nullptr, 0);
     }
 
@@ -45,9 +49,14 @@ public:
         posix_spawn_file_actions_init(&actions);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+        posix_spawnattr_t attributes;  // a group of its own, which can be ended as a whole
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         const char* const words[] = {"sh", "-c", command.c_str(), nullptr};
-        const int failed = posix_spawn(&out.process_, "/bin/sh", &actions, nullptr, const_cast<char**>(words), environ);
+        const int failed =
+            posix_spawn(&out.process_, "/bin/sh", &actions, &attributes, const_cast<char**>(words), environ);
         posix_spawn_file_actions_destroy(&actions);
+        posix_spawnattr_destroy(&attributes);
         close(ends[1]);
         if (failed) {
             out.process_ = -1;
@@ -67,6 +76,7 @@ public:
             if (end == std::string::npos) {
                 char part[4096];
                 const ssize_t n = read(socket_, part, sizeof part);
+                hangs_ = n < 0;
                 if (n <= 0)
                     return Error{Errc::io, "the program that was asked '" + words +
                                                (n == 0 ? "' has ended" : "' does not answer")};
@@ -82,6 +92,7 @@ public:
 private:
     int socket_ = -1;
     pid_t process_ = -1;
+    bool hangs_ = false;  ///< it was silent for too long
     std::string unread_;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 /// \file
 /// What is drawn and how: the methods, and the scenes by name or by file.
-#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <pellucid/gpu/abuffer.h>
@@ -38,7 +37,7 @@ struct Case {
     bool default_light = true;
     std::string file;      ///< that it was read from; empty: made by the program
     bool peers = false;    ///< unlit and of one colour a face: other programs draw the same
-    bool lit = false;      ///< any translucent or opaque surface is lit
+    bool lit = false;      ///< any surface is lit
     bool sampled = false;  ///< any surface has a texture: filters differ between devices
 
     [[nodiscard]] RenderSettings settings(Extent2D size, Transparency method) const {
@@ -74,6 +73,14 @@ inline constexpr KnownFile known_files[] = {
     {"S2", "S2_intersecting_planes", "S2 intersecting planes", {0.2f, 0.2f, 0.21960784f}, true},
     {"S3", "S3_linked_chain", "S3 linked chain", {0.25098039f, 0.25882353f, 0.29803922f}, true},
     {"L1", "L1_lit", "L1 lit", {0.03921569f, 0.03921569f, 0.05098039f}, false}};
+
+/// " S1 S2 …".
+[[nodiscard]] inline std::string scene_names() {
+    std::string out;
+    for (const KnownFile& known : known_files) out += std::string(" ") + known.name;
+    for (const NamedScene& made : made_scenes) out += std::string(" ") + made.name;
+    return out;
+}
 
 }  // namespace detail
 
@@ -131,9 +138,8 @@ inline constexpr KnownFile known_files[] = {
             out.file = name;
             out.name = out.title = std::filesystem::path(name).stem().string();
             if (!std::filesystem::exists(name))
-                return Error{Errc::invalid_argument, "--scene '" + name +
-                                                         "' is neither a file nor one of S1, S2, S3, "
-                                                         "L1, demo, teapots, peeling, chain, planes, quads, glass"};
+                return Error{Errc::invalid_argument,
+                             "--scene '" + name + "' is neither a file nor one of" + detail::scene_names()};
         }
         PELLUCID_TRY(out.scene, load_gltf(out.file));
     }
