@@ -4,7 +4,7 @@
 /// What is drawn and how: the methods, and the scenes by name or by file.
 #include <cstdlib>
 #include <filesystem>
-#include <pellucid/gpu/abuffer.h>
+#include <pellucid/gpu/fragment_lists.h>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/settings.hpp>
 #include <pellucid/scene/demo_scene.hpp>
@@ -16,18 +16,22 @@
 
 namespace pellucid::bench {
 
+/// Where a method's picture must be within its documented bound, or nothing is timed.
+enum class Exact : std::uint8_t { nowhere, unlit_scenes, everywhere };
+
 struct Method {
     Transparency value = Transparency::sorted;
-    bool exact = false;  ///< its picture must be within its documented bound, or nothing is timed
+    Exact exact = Exact::nowhere;
     const char* remark = "";
-    std::uint32_t fragment_bytes = 0;  ///< [byte] held for each fragment, which the renderer does not report
 };
 /// The first one is what all others are a multiple of.
-inline constexpr Method methods[] = {{Transparency::sorted, false, "whole objects, back to front"},
-                                     {Transparency::peel, true, "exact"},
-                                     {Transparency::peel_seed, false, "six layers of 8 bits"},
-                                     {Transparency::dual_peel, false, "exact but for equal depths"},
-                                     {Transparency::abuffer, true, "exact", PELLUCID_ABUFFER_NODE_BYTES}};
+inline constexpr Method methods[] = {{Transparency::sorted, Exact::nowhere, "whole objects, back to front"},
+                                     {Transparency::peel, Exact::everywhere, "exact"},
+                                     {Transparency::peel_seed, Exact::nowhere, "six layers of 8 bits"},
+                                     {Transparency::dual_peel, Exact::nowhere, "exact but for equal depths"},
+                                     {Transparency::interleaved_skyx, Exact::nowhere, "one surface a pixel"},
+                                     {Transparency::interleaved, Exact::unlit_scenes, "exact but for light"},
+                                     {Transparency::abuffer, Exact::everywhere, "exact"}};
 
 struct Case {
     std::string name, title;
@@ -37,11 +41,19 @@ struct Case {
     bool default_light = true;
     std::string file;      ///< that it was read from; empty: made by the program
     bool peers = false;    ///< unlit and of one colour a face: other programs draw the same
-    bool lit = false;      ///< any surface is lit
+    bool lit = false;      ///< light falls on any surface
     bool sampled = false;  ///< any surface has a texture: filters differ between devices
 
     [[nodiscard]] RenderSettings settings(Extent2D size, Transparency method) const {
         return {.size = size, .transparency = method, .background = background, .default_light = default_light};
+    }
+    [[nodiscard]] bool exact(const Method& method) const {
+        return method.exact == Exact::everywhere || (method.exact == Exact::unlit_scenes && !lit);
+    }
+    /// [byte] that a method holds for each translucent fragment, and that the renderer does not report.
+    [[nodiscard]] std::uint64_t fragment_bytes(Transparency method) const {
+        if (method == Transparency::interleaved) return 2 * PELLUCID_LISTS_TEXEL_BYTES;
+        return method == Transparency::abuffer ? (lit ? 2 : 1) * PELLUCID_LISTS_TEXEL_BYTES : 0;
     }
 };
 
@@ -146,7 +158,7 @@ inline constexpr KnownFile known_files[] = {
     out.camera = out.scene.cameras.empty() ? frame_scene(out.scene, size) : out.scene.cameras.front();
     for (const Instance& instance : out.scene.instances) {
         const Material& m = out.scene.materials[out.scene.meshes[instance.mesh].material];
-        out.lit = out.lit || !m.unlit;
+        out.lit = out.lit || (!m.unlit && (out.default_light || !out.scene.lights.empty()));
     }
     out.sampled = !out.scene.textures.empty();
     return out;

@@ -4,6 +4,7 @@
 /// One scene on one device: every method's picture is judged, then all are timed, in turn.
 #include <pellucid/renderer/renderer.hpp>
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <future>
 #include "support/markdown.hpp"
@@ -67,8 +68,8 @@ struct Contender {
     MethodRow row;
     bool exact = false;
     std::unique_ptr<Renderer<B>> renderer;
-    ImageF picture;                           ///< [h, w, 3] of the last frame that was read
-    std::vector<double> frame, transparency;  ///< [ms] of each round
+    ImageF picture;                            ///< [h, w, 3] of the last frame that was read
+    std::vector<double> frame, own, lighting;  ///< [ms] of each round: all, passes of its own, the lighting pass
     struct Pass {
         std::string name;
         std::vector<double> milliseconds;
@@ -94,14 +95,16 @@ struct Contender {
         if (!timestamps) return {};
         if (spans.empty())
             return Error{Errc::internal, row.method + ": the device gave no timestamps of a frame; use --clock wall"};
-        double sum = 0;
+        double sum = 0, light = 0;
         for (const measure::GpuSpan& span : spans) {
             auto pass = std::find_if(passes.begin(), passes.end(), [&](const Pass& p) { return p.name == span.name; });
             if (pass == passes.end()) pass = passes.insert(pass, {span.name, {}});
             pass->milliseconds.push_back(span.ms);
             if (of_transparency(span.name)) sum += span.ms;
+            if (std::strcmp(span.name, "lighting") == 0) light += span.ms;
         }
-        transparency.push_back(sum);
+        own.push_back(sum);
+        lighting.push_back(light);
         return {};
     }
 };
@@ -121,7 +124,7 @@ public:
 
     /// Every method's first frame; that without translucent surfaces is contender 0, the baseline 1.
     [[nodiscard]] Result<void> draw() {
-        PELLUCID_CHECK(enter(RowKind::opaque, {Transparency::none, false, "opaque surfaces alone"}));
+        PELLUCID_CHECK(enter(RowKind::opaque, {Transparency::none, Exact::nowhere, "opaque surfaces alone"}));
         for (const Method& method : settings_.methods) PELLUCID_CHECK(enter(RowKind::method, method));
         slack_ = contenders_[0].picture;
         for (std::size_t i = 0; i < slack_.data.size(); ++i)
@@ -183,13 +186,13 @@ public:
 
     /// Ends the run.
     [[nodiscard]] SceneResult result() {
-        const std::vector<double> baseline = contenders_[1].frame, opaque = contenders_[0].frame;
+        const Contender &opaque = contenders_[0], &baseline = contenders_[1];
         for (Contender& entry : contenders_) {
             MethodRow& row = entry.row;
-            if (!settings_.timestamps) entry.transparency = differences(entry.frame, opaque);
             if (row.kind == RowKind::method) {
-                row.ratio = summarise(ratios(entry.frame, baseline)).median;
-                row.transparency = summarise(entry.transparency);
+                row.ratio = summarise(ratios(entry.frame, baseline.frame)).median;
+                row.transparency = summarise(transparency(entry, opaque));
+                row.added_light = summarise(differences(entry.lighting, opaque.lighting));
                 for (std::size_t p = 0; p < peers_.size(); ++p)
                     if (peers_[p]->exact) row.peer_ratio = summarise(ratios(entry.frame, peer_times_[p])).median;
             }
@@ -200,7 +203,7 @@ public:
         for (std::size_t p = 0; p < peers_.size(); ++p) {
             out_.rows.push_back(peers_[p]->row);
             out_.rows.back().frame = summarise(peer_times_[p]);
-            out_.rows.back().ratio = summarise(ratios(peer_times_[p], baseline)).median;
+            out_.rows.back().ratio = summarise(ratios(peer_times_[p], baseline.frame)).median;
         }
         return std::move(out_);
     }
@@ -208,16 +211,25 @@ public:
 private:
     using Contender = detail::Contender<B>;
 
+    /// [ms] of each round: a method's own passes and what it adds to the lighting pass, or, without timestamps, to the
+    /// frame.
+    [[nodiscard]] std::vector<double> transparency(const Contender& entry, const Contender& opaque) const {
+        if (!settings_.timestamps) return differences(entry.frame, opaque.frame);
+        std::vector<double> out = differences(entry.lighting, opaque.lighting);
+        for (std::size_t i = 0; i < out.size(); ++i) out[i] += entry.own[i];
+        return out;
+    }
+
     [[nodiscard]] Result<void> enter(RowKind kind, const Method& method) {
         Contender entry;
-        entry.exact = method.exact;
+        entry.exact = case_.exact(method);
         entry.row = {.kind = kind, .method = name(method.value), .remark = method.remark};
         PELLUCID_TRY(entry.renderer,
                      Renderer<B>::create(device_, case_.scene, case_.settings(settings_.size, method.value)));
         PELLUCID_CHECK(entry.time(device_, case_.camera, false, false));
         PELLUCID_CHECK(entry.read());
         const RenderStats stats = entry.renderer->stats();
-        entry.row.bytes = stats.bytes + method.fragment_bytes * truth_.fragments;
+        entry.row.bytes = stats.bytes + case_.fragment_bytes(method.value) * truth_.fragments;
         if (!contenders_.empty()) entry.row.own_bytes = entry.row.bytes - contenders_.front().row.bytes;
         entry.row.draws = stats.draws;
         out_.triangles = stats.triangles;

@@ -23,6 +23,8 @@ namespace detail {
     for (const PassTime& pass : row.passes)
         if (row.kind == RowKind::opaque || of_transparency(pass.name.c_str()))
             parts.push_back(pass.name + " " + significant(pass.milliseconds.median));
+    if (row.kind == RowKind::method && row.added_light.median > 0.02 * row.transparency.median)
+        parts.push_back("light " + significant(row.added_light.median));
     if (parts.size() < 2) return out;
     out += out.empty() ? "" : "; ";
     for (std::size_t i = 0; i < parts.size(); ++i) out += (i ? " + " : "") + parts[i];
@@ -86,7 +88,7 @@ namespace detail {
                        "- ms: the clock around a whole frame and the wait for it, " + std::to_string(result.rounds) +
                        " rounds after " + std::to_string(result.warm_up) +
                        " to warm up; x sorted: median of the rounds' ratios\n- transparency ms: " +
-                       (result.timestamps ? "GPU timestamps of its passes"
+                       (result.timestamps ? "GPU timestamps of its passes, and what it adds to the lighting pass"
                                           : "what the frame takes longer than without translucent surfaces") +
                        "\n- RMSE: linear radiance, absolute; scaled: by max(1, reference); FLIP: mean of LDR-FLIP; "
                        "MiB: own is what there is not without translucent surfaces\n";
@@ -102,6 +104,7 @@ inline void write(JsonWriter& json, const MethodRow& row) {
     if (row.ratio > 0) json.member("ratio", row.ratio);
     if (row.peer_ratio > 0) json.member("ratio_to_vtk_dual_peel", row.peer_ratio);
     if (row.transparency.count) json.member("transparency_milliseconds", row.transparency);
+    if (row.added_light.count) json.member("added_light_milliseconds", row.added_light);
     json.key("passes").begin_object();
     for (const PassTime& pass : row.passes) json.member(pass.name, pass.milliseconds);
     json.end_object();

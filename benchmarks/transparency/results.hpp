@@ -29,6 +29,7 @@ struct MethodRow {
     Summary frame;                   ///< [ms] from `render` to the end of the wait
     double ratio = 0;                ///< to the baseline, the median of the rounds' own ratios; 0: it has none
     Summary transparency;            ///< [ms] of it what translucent surfaces took
+    Summary added_light;             ///< [ms] of that, in the lighting pass; only with timestamps
     std::vector<PassTime> passes;    ///< GPU times of all passes; only with timestamps
     double peer_ratio = 0;           ///< as `ratio`, to the peer's exact method
     std::uint32_t draws = 0;         ///< a frame
