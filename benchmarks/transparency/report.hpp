@@ -57,7 +57,7 @@ namespace detail {
     for (const std::string& note : scene.notes) text += "- " + note + "\n";
     const bool peers =
         std::any_of(scene.rows.begin(), scene.rows.end(), [](const MethodRow& row) { return row.peer_ratio > 0; });
-    std::vector<std::string> header = {"method", "ms, median [quartiles]", "x sorted"};
+    std::vector<std::string> header = {"method", "ms, median [quartiles]", "lowest", "x sorted"};
     if (peers) header.push_back("x VTK dual-peel");
     header.insert(header.end(), {"transparency ms", "RMSE", "scaled RMSE", "scaled max", "scaled p99.9", "FLIP",
                                  "PSNR dB", "MiB (own)", "notes"});
@@ -66,7 +66,8 @@ namespace detail {
     const auto mib = [](std::uint64_t bytes) { return significant(static_cast<double>(bytes) / (1024.0 * 1024.0)); };
     for (const MethodRow& row : scene.rows) {
         const measure::QualityReport& q = row.quality;
-        std::vector<std::string> cells = {row.method, with_spread(row.frame), number(row.ratio, row.ratio > 0)};
+        std::vector<std::string> cells = {row.method, with_spread(row.frame), significant(row.frame.lowest),
+                                          number(row.ratio, row.ratio > 0)};
         if (peers) cells.push_back(number(row.peer_ratio, row.peer_ratio > 0));
         for (const std::string& cell :
              {number(row.transparency.median, row.transparency.count > 0), significant(q.absolute->rmse),
