@@ -71,7 +71,8 @@ public:
 private:
     explicit Renderer(typename B::Device& device) : device_(&device) {}
     [[nodiscard]] Result<void> build(const Scene& scene);
-    void declare_opaque();
+    void declare_gbuffer();
+    void declare_lighting(const LightingChanges& changes);
     void declare_background();
     void declare_tonemap();
     [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);

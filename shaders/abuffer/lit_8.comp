@@ -1,0 +1,7 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: MIT
+#define WINDOW 8
+#define SORT(keys) SORT8(keys, 0)
+#define ABUFFER_LIT
+#include "common/abuffer_resolve.glsl"
