@@ -113,7 +113,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: alpha 0, 1/255, 254/255 and 1 in all 24 ord
     check_exact<TestType>(*device, known);
     check_within<TestType>(*device, known, Transparency::dual_peel);
     // Nor does the order of drawing matter, by a single bit.
-    for (const Transparency method : {Transparency::peel, Transparency::abuffer, Transparency::dual_peel}) {
+    for (const Transparency method : methods_exact(Exactness::single_depths)) {
         std::vector<ImageF> pictures;
         for (const std::array<std::size_t, 4>& draws :
              {std::array<std::size_t, 4>{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, 3, 0, 2}})

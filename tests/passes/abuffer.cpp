@@ -72,7 +72,7 @@ TEMPLATE_LIST_TEST_CASE("an A-buffer in bands gives the same bits as in one piec
     CHECK(whole.pass.bands() == 1);
     const std::uint64_t total = sum_of_slots(whole.count.strips()), one = largest(whole.count.strips());
     const std::vector<gpu::LayerStrip> strips(whole.count.strips().begin(), whole.count.strips().end());
-    constexpr std::uint64_t node = PELLUCID_ABUFFER_NODE_BYTES, row = node << PELLUCID_ABUFFER_WIDTH_BITS;
+    constexpr std::uint64_t node = PELLUCID_LISTS_TEXEL_BYTES, row = node << PELLUCID_LISTS_WIDTH_BITS;
     CHECK(whole.pass.pool_bytes() == (total * node + row - 1) / row * row);
     for (const std::uint64_t places : {total, total - 1, total / 2, total / 8, one}) {
         REQUIRE(places >= one);
@@ -99,9 +99,9 @@ TEMPLATE_LIST_TEST_CASE("a budget below one strip is refused, and the device goe
     const ImageF wanted = shoot<TestType>(*device, scene, camera, settings).hdr;
     Stored<TestType> whole(*device, scene, {.size = settings.size});
     (void)whole.draw(camera);
-    const std::uint64_t one = largest(whole.count.strips()) * PELLUCID_ABUFFER_NODE_BYTES;
+    const std::uint64_t one = largest(whole.count.strips()) * PELLUCID_LISTS_TEXEL_BYTES;
     std::size_t first = 0;
-    while (whole.count.strips()[first].slots * std::uint64_t{PELLUCID_ABUFFER_NODE_BYTES} < one) ++first;
+    while (whole.count.strips()[first].slots * std::uint64_t{PELLUCID_LISTS_TEXEL_BYTES} < one) ++first;
 
     settings.memory_budget = one - 1;
     const auto renderer = must(Renderer<TestType>::create(*device, scene, settings));
@@ -114,7 +114,7 @@ TEMPLATE_LIST_TEST_CASE("a budget below one strip is refused, and the device goe
         CHECK(message.find("rows " + std::to_string(8 * first) + " to " + std::to_string(8 * first + 7)) !=
               std::string::npos);
         CHECK(message.find(std::to_string(one) + " bytes") != std::string::npos);
-        CHECK(message.find(std::to_string(one - PELLUCID_ABUFFER_NODE_BYTES) + " bytes") != std::string::npos);
+        CHECK(message.find(std::to_string(one - PELLUCID_LISTS_TEXEL_BYTES) + " bytes") != std::string::npos);
     }
     // Another renderer, then this one with a camera that sees nothing, then everything again.
     settings.memory_budget = one;

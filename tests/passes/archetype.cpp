@@ -25,11 +25,7 @@ namespace {
 RenderSettings small(Transparency method, bool audit = false) {
     return {.size = {64, 36}, .transparency = method, .audit = audit};
 }
-std::vector<Transparency> none_and_all_methods() {
-    std::vector<Transparency> methods = test::all_methods();
-    methods.insert(methods.begin(), Transparency::none);
-    return methods;
-}
+using test::none_and_all_methods;
 
 /// Whether frames were begun and submitted in turn, the last one too.
 bool in_turn(const null::Device& device) {
@@ -69,31 +65,55 @@ TEST_CASE("frames of the demo scene keep every rule of the RHI", "[cpu]") {
         }
 }
 
-TEST_CASE("the A-buffer keeps every rule in one band, in several and in none", "[cpu]") {
+TEST_CASE("methods that list fragments keep every rule in one band, in several and in none", "[cpu]") {
     // The null device counts no fragment, so the strips are made up.
     using B = Validated<Null>;
     test::Log log;
     const Scene scene = make_demo_scene();
     auto device = test::must(B::create(log.desc()));
+    const auto walk = [&](test::PassStage<B>& stage, LayerCountPass<B>& count, auto& pass, auto&& record) {
+        for (const std::uint32_t slots : {0u, 100u, 400u, 1000u, 0u, 400u}) {
+            const std::vector<gpu::LayerStrip> strips(5, {.slots = slots});
+            stage.frame(scene.cameras.front(), [&](Frame<B>& f) -> Result<void> {
+                count.record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
+                PELLUCID_CHECK(f.flush());
+                PELLUCID_CHECK(pass.prepare(*device, strips));
+                record(f.commands());
+                return {};
+            });
+            CHECK(pass.bands() == (slots == 0 ? 0 : slots == 100 ? 1 : slots == 400 ? 3 : 5));
+        }
+        CHECK_FALSE(pass.prepare(*device, std::vector<gpu::LayerStrip>(5, {.slots = 1001})));
+    };
     {
         test::PassStage<B> stage(*device, scene, {.size = {64, 36}});
         auto count = test::must(LayerCountPass<B>::create(*device, stage.fragments()));
+        using enum rhi::TextureUsage;
+        const auto image = [&](rhi::Format format) {
+            return stage.target(format, storage | sampled | attachment, "surfaces");
+        };
+        const auto nodes = image(rhi::Format::rgba32_uint), looks = image(rhi::Format::rgba32_uint),
+                   light = image(rhi::Format::rgba16_float);
         for (const bool audit : {false, true}) {
-            auto pass = test::must(AbufferPass<B>::create(
-                *device, {.fragments = stage.fragments(), .memory_budget = 16000, .audit = audit}, stage.hdr_target(),
-                count.counts()));
-            for (const std::uint32_t slots : {0u, 100u, 400u, 1000u, 0u, 400u}) {
-                const std::vector<gpu::LayerStrip> strips(5, {.slots = slots});
-                stage.frame(scene.cameras.front(), [&](Frame<B>& f) -> Result<void> {
-                    count.record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
-                    PELLUCID_CHECK(f.flush());
-                    PELLUCID_CHECK(pass.prepare(*device, strips));
-                    pass.record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
-                    return {};
+            for (const FragmentContent content : {FragmentContent::colors, FragmentContent::surfaces}) {
+                const std::uint64_t place_bytes = content == FragmentContent::colors ? 16 : 32;
+                auto pass = test::must(AbufferPass<B>::create(*device,
+                                                              {.fragments = stage.fragments(),
+                                                               .content = content,
+                                                               .memory_budget = 1000 * place_bytes,
+                                                               .audit = audit},
+                                                              stage.hdr_target(), count.counts()));
+                walk(stage, count, pass, [&](B::Commands& cmd) {
+                    pass.record(cmd, stage.depth(), stage.scene().binding(), stage.scene().translucent());
                 });
-                CHECK(pass.bands() == (slots == 0 ? 0 : slots == 100 ? 1 : slots == 400 ? 3 : 5));
             }
-            CHECK_FALSE(pass.prepare(*device, std::vector<gpu::LayerStrip>(5, {.slots = 1001})));
+            auto pass = test::must(InterleavedPass<B>::create(
+                *device, {.fragments = stage.fragments(), .memory_budget = 32000, .audit = audit},
+                {.hdr = stage.hdr_target(), .nodes = nodes, .looks = looks, .light = light}, count.counts()));
+            walk(stage, count, pass, [&](B::Commands& cmd) {
+                pass.record_select(cmd, stage.depth(), stage.scene().binding(), stage.scene().translucent());
+                pass.record_merge(cmd, stage.depth(), stage.scene().binding(), stage.scene().translucent());
+            });
         }
     }
     CHECK(device->violations() == 0);

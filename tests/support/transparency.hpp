@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 #include "support/devices.hpp"
+#include "support/methods.hpp"
 
 namespace pellucid::test {
 
@@ -49,29 +50,44 @@ struct Window {
     }
 };
 
+/// What a method keeps of a fragment until it composites it.
+enum class Kept : std::uint8_t {
+    nothing,  ///< it composites as it shades
+    colors,   ///< FragmentContent::colors: premultiplied colour and alpha
+    surfaces  ///< FragmentContent::surfaces: radiance and alpha, multiplied afterwards
+};
+[[nodiscard]] inline Kept kept_by(Transparency method, const RenderSettings& settings) {
+    if (method == Transparency::interleaved) return Kept::surfaces;
+    if (method != Transparency::abuffer) return Kept::nothing;
+    return settings.every_need ? Kept::surfaces : Kept::colors;  // nothing else makes light fall on these scenes
+}
+
 /// Largest and least result of `method` for these layers, nearest first.  Everything is >= 0, so both ends come from
 /// the ends of what each operation may give, u = 2^-24 being half a unit in the last place of binary32:
 ///   shading: factors, interpolated vertex colours and alpha are multiplied, (1 ± 8u); alpha itself (1 ± 4u);
-///   abuffer stores the colour as binary16, to nearest: (1 ± 2^-11), and below 2^-14, where it has no more digits, a
-///     unit of 2^-24; alpha as the nearest code of unorm16, which is known; its way back to float rounds, (1 ± 2u);
+///   colours are kept as binary16, to nearest: (1 ± 2^-11), and below 2^-14, where it has no more digits, a unit of
+///     2^-24; alpha as the nearest code of unorm16, which is known; its way back to float rounds, (1 ± 2u);
+///   surfaces: the same for radiance, and the alpha that multiplies it moves the product as far;
 ///   each layer: C + T c and T (1 - a) are two operations each, (1 ± 2u); dual_peel keeps 1 - T instead of T, which
 ///     rounds by up to u three times a layer, whatever T is;
 ///   the end: C + T behind, two operations; then binary16, limited to 65504: toward zero on software drivers, to a
 ///     neighbour elsewhere, a unit being 2^-10 of the value or 2^-24.
 /// `behind` must be held by binary16.
 [[nodiscard]] inline Window window(std::span<const Layer> layers, const glm::dvec3& behind, Transparency method,
-                                   bool software) {
+                                   Kept kept, bool software) {
     constexpr double u = 0x1p-24;
-    const bool stored = method == Transparency::abuffer;
-    const double kept = method == Transparency::dual_peel ? 3 * u : 0.0;
+    const bool stored = kept != Kept::nothing;
+    const double rounds = method == Transparency::dual_peel ? 3 * u : 0.0;
     Window w;
     double least = 1, most = 1;  // T
     for (const Layer& layer : layers) {
-        const glm::dvec3 wide = layer.color * (8 * u + (stored ? 0x1p-11 : 0.0)) + (stored ? 0x1p-24 : 0.0);
-        w.lower = (w.lower + least * glm::max(layer.color - wide, glm::dvec3(0))) * (1 - 2 * u);
-        w.upper = (w.upper + most * (layer.color + wide)) * (1 + 2 * u);
         double moved = 6 * u * layer.alpha;
         if (stored) moved += std::abs(std::round(layer.alpha * 65535) / 65535 - layer.alpha);
+        double relative = 8 * u + (stored ? 0x1p-11 : 0.0);
+        if (kept == Kept::surfaces && layer.alpha > 0) relative += moved / layer.alpha;
+        const glm::dvec3 wide = layer.color * relative + (stored ? 0x1p-24 : 0.0);
+        w.lower = (w.lower + least * glm::max(layer.color - wide, glm::dvec3(0))) * (1 - 2 * u);
+        w.upper = (w.upper + most * (layer.color + wide)) * (1 + 2 * u);
         if (layer.alpha != 0 && layer.alpha != 1) {  // by these T is multiplied exactly
             least *= (1 - std::min(1.0, layer.alpha + moved)) * (1 - 2 * u);
             most *= (1 - std::max(0.0, layer.alpha - moved)) * (1 + 2 * u);
@@ -79,8 +95,8 @@ struct Window {
             least *= 1 - layer.alpha;
             most *= 1 - layer.alpha;
         }
-        least = std::max(0.0, least - kept);
-        most += kept;
+        least = std::max(0.0, least - rounds);
+        most += rounds;
     }
     w.lower = (w.lower + least * behind) * (1 - 2 * u);
     w.upper = (w.upper + most * behind) * (1 + 2 * u);
@@ -151,7 +167,8 @@ struct Verdict {
 }
 [[nodiscard]] inline Verdict judge(const ImageF& hdr, const KnownScene& known, Transparency method, bool software) {
     std::vector<Window> windows;
-    for (const KnownPixel& p : known.pixels) windows.push_back(window(p.layers, p.behind, method, software));
+    for (const KnownPixel& p : known.pixels)
+        windows.push_back(window(p.layers, p.behind, method, kept_by(method, known.settings), software));
     Verdict out;
     for (std::uint32_t y = 0; y < hdr.height; ++y)
         for (std::uint32_t x = 0; x < hdr.width; ++x) {
@@ -189,41 +206,68 @@ template <class F>
     return wrong;
 }
 
-/// The exact methods draw `known` within their windows and composite every fragment there is; the audit, which goes on
-/// where nothing can be seen any more, changes no bit.
-template <rhi::Backend B>
-void check_exact(typename B::Device& device, const KnownScene& known,
-                 std::initializer_list<Transparency> methods = {Transparency::peel, Transparency::abuffer}) {
-    for (const Transparency method : methods) {
-        const Composited audited = composite<B>(device, known, method, true);
-        const Composited plain = composite<B>(device, known, method);
-        const Verdict verdict = judge(plain.hdr, known, method, device.info().software);
-        INFO(known.name << ", " << name(method) << " on " << B::name << ": " << verdict.first);
-        std::printf("%s, %s on %s: %zu of %zu pixels outside, worst error %.3g\n", known.name.c_str(), name(method),
-                    B::name, verdict.outside, verdict.pixels, verdict.worst);
-        CHECK(verdict.pixels > 0);
-        CHECK(verdict.outside == 0);
-        CHECK(different(plain.hdr, audited.hdr) == 0);
-        CHECK(different(plain.counted, audited.counted) == 0);
-        CHECK(different(audited.composited, audited.counted) == 0);
-        CHECK(miscounted(audited.counted, [&](std::uint32_t x, std::uint32_t y) {
-                  const std::size_t which = known.at(x, y);
-                  return which == KnownScene::unknown ? *audited.counted.texel(x, y)
-                                                      : static_cast<std::uint32_t>(known.pixels[which].layers.size());
-              }) == 0);
-    }
+/// Judges a picture of `known`, prints and checks it.
+inline void check_picture(const ImageF& hdr, const KnownScene& known, Transparency method, const char* backend,
+                          bool software) {
+    const Verdict verdict = judge(hdr, known, method, software);
+    INFO(known.name << ", " << name(method) << " on " << backend << ": " << verdict.first);
+    std::printf("%s, %s on %s: %zu of %zu pixels outside, worst error %.3g\n", known.name.c_str(), name(method),
+                backend, verdict.outside, verdict.pixels, verdict.worst);
+    CHECK(verdict.pixels > 0);
+    CHECK(verdict.outside == 0);
 }
 
 /// `method` draws `known` within its window.
 template <rhi::Backend B>
 void check_within(typename B::Device& device, const KnownScene& known, Transparency method) {
-    const Composited drawn = composite<B>(device, known, method);
-    const Verdict verdict = judge(drawn.hdr, known, method, device.info().software);
-    INFO(known.name << ", " << name(method) << " on " << B::name << ": " << verdict.first);
-    std::printf("%s, %s on %s: %zu of %zu pixels outside, worst error %.3g\n", known.name.c_str(), name(method),
-                B::name, verdict.outside, verdict.pixels, verdict.worst);
-    CHECK(verdict.pixels > 0);
-    CHECK(verdict.outside == 0);
+    RenderSettings settings = known.settings;
+    settings.transparency = method;
+    const auto renderer = must(Renderer<B>::create(device, known.scene, settings));
+    (void)must(renderer->render(known.camera));
+    check_picture(must(renderer->read_hdr()), known, method, B::name, device.info().software);
+}
+
+/// What an audited frame says of `known`: of fragments, that none is missing; of lights, one a pixel at least.
+inline void check_audit(const Composited& audited, const KnownScene& known, Transparency method, const char* backend) {
+    INFO(known.name << ", " << name(method) << " on " << backend);
+    const auto wanted = [&](std::uint32_t x, std::uint32_t y) {
+        const std::size_t which = known.at(x, y);
+        return which == KnownScene::unknown ? *audited.counted.texel(x, y)
+                                            : static_cast<std::uint32_t>(known.pixels[which].layers.size());
+    };
+    CHECK(miscounted(audited.counted, wanted) == 0);
+    if (facts(method).audit == Audit::fragments) CHECK(different(audited.composited, audited.counted) == 0);
+    if (facts(method).audit == Audit::lights) {
+        std::size_t wrong = 0;
+        for (std::size_t i = 0; i < audited.counted.data.size(); ++i) {
+            const std::uint32_t lights = audited.composited.data[i], layers = audited.counted.data[i];
+            wrong += lights > layers || (lights == 0) != (layers == 0);
+        }
+        CHECK(wrong == 0);
+    }
+}
+
+/// The exact methods draw `known`, on which no light falls, within their windows and composite every fragment there
+/// is; the audit, which goes on where nothing can be seen any more, changes no bit.
+template <rhi::Backend B>
+void check_exact(typename B::Device& device, const KnownScene& known,
+                 const std::vector<Transparency>& methods = methods_exact(Exactness::without_light)) {
+    for (const Transparency method : methods) {
+        const Composited audited = composite<B>(device, known, method, true);
+        check_audit(audited, known, method, B::name);
+        const Composited plain = composite<B>(device, known, method);
+        check_picture(plain.hdr, known, method, B::name, device.info().software);
+        INFO(known.name << ", " << name(method) << " on " << B::name);
+        CHECK(different(plain.hdr, audited.hdr) == 0);
+        CHECK(different(plain.counted, audited.counted) == 0);
+    }
+    // The A-buffer keeps surfaces instead of colours where light may fall on them.
+    if (known.settings.every_need || std::find(methods.begin(), methods.end(), Transparency::abuffer) == methods.end())
+        return;
+    KnownScene lit = known;
+    lit.name += ", as if lit";
+    lit.settings.every_need = true;
+    check_within<B>(device, lit, Transparency::abuffer);
 }
 
 /// Both backends draw the same bits: of radiance with exact arithmetic, of display codes to one step without it.
@@ -233,7 +277,7 @@ inline void check_backends_agree([[maybe_unused]] std::span<const KnownScene> sc
     const auto opengl = make_device<OpenGL>();
     if (!vulkan || !opengl) return;
     for (const KnownScene& known : scenes)
-        for (const Transparency method : {Transparency::peel, Transparency::abuffer})
+        for (const Transparency method : methods_exact(Exactness::without_light))
             for (const bool exact : {true, false}) {
                 RenderSettings settings = known.settings;
                 settings.transparency = method;
