@@ -36,7 +36,6 @@ template <rhi::Backend B>
 Found find(typename B::Device& device, const Scene& scene, Extent2D size, FragmentContent content,
            std::uint64_t places = 0) {
     using enum rhi::TextureUsage;
-    using enum rhi::Access;
     PassStage<B> stage(device, scene, {.size = size});
     auto count = must(LayerCountPass<B>::create(device, stage.fragments()));
     const std::uint64_t place_bytes = content == FragmentContent::colors ? 16 : 32;
@@ -82,8 +81,10 @@ Found find(typename B::Device& device, const Scene& scene, Extent2D size, Fragme
             const rhi::Pipeline each[] = {pipelines[0], pipelines[1], pipelines[2], pipelines[3]};
             for (const StripBand& band : lists.bands()) {
                 lists.record(cmd, band, stage.depth(), binding, stage.scene().translucent());
-                lists.walk(cmd, band, binding, {rhi::use(found, storage_write), rhi::use(walks, storage_read_write)},
-                           each, group, 0, "walker");
+                lists.walk(
+                    cmd, band, binding,
+                    {rhi::use(found, rhi::Access::storage_write), rhi::use(walks, rhi::Access::storage_read_write)},
+                    each, group, 0, "walker");
             }
             return f.flush();  // the group and the pipelines go
         });
