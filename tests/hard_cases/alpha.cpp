@@ -116,7 +116,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: alpha 0, 1/255, 254/255 and 1 in all 24 ord
     for (const Transparency method : methods_exact(Exactness::single_depths)) {
         std::vector<ImageF> pictures;
         for (const std::array<std::size_t, 4>& draws :
-             {std::array<std::size_t, 4>{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}, {1, 3, 0, 2}})
+             {std::array<std::size_t, 4>{0, 1, 2, 3}, {3, 2, 1, 0}, {2, 0, 3, 1}})
             pictures.push_back(composite<TestType>(*device, orders(draws), method).hdr);
         INFO(name(method));
         CHECK(must(measure::order_variance(pictures)).bit_equal());
@@ -129,6 +129,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: light that hides nothing", "[gpu]", Backend
     const KnownScene known = lights();
     check_known(known);
     check_exact<TestType>(*device, known);
+    check_as_if_lit<TestType>(*device, known);
     KnownScene single = known;  // without the one where several share a depth
     single.at = [at = known.at](std::uint32_t x, std::uint32_t y) {
         const std::size_t which = at(x, y);

@@ -116,6 +116,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: coplanar sheets in both orders of drawing",
     const KnownScene known = stacks();
     check_known(known);
     check_exact<TestType>(*device, known);
+    check_as_if_lit<TestType>(*device, known);
 }
 
 TEMPLATE_LIST_TEST_CASE("hard cases: translucent sheets in the place of an opaque one and an ulp off", "[gpu]",

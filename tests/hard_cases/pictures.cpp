@@ -94,6 +94,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: alpha from textures", "[gpu]", Backends) {
     const KnownScene known = textured(64);
     check_known(known);
     check_exact<TestType>(*device, known);
+    check_as_if_lit<TestType>(*device, known);
     check_within<TestType>(*device, known, Transparency::dual_peel);
 }
 

@@ -126,18 +126,23 @@ void check_walks(const Found& found) {
 std::uint32_t unorm16(float v) {
     return static_cast<std::uint32_t>(v * 65535.0f + 0.5f);
 }
-std::uint32_t halves(float low, float high) {
-    return half_toward_zero(low) | std::uint32_t{half_toward_zero(high)} << 16;
-}
 /// An unlit sheet as the lists hold it, but for its draw order, and a surface's unused normal, roughness and the like.
+/// Colours and alpha have few enough bits to be exact.
 Stored stored(FragmentContent content, float depth, const glm::vec4& color, std::uint32_t instance) {
-    const auto bits = std::bit_cast<std::uint32_t>(depth);
-    if (content == FragmentContent::surfaces)
-        return {{bits, 0, 0, 0},
-                {unorm16(color.r) | unorm16(color.g) << 16, unorm16(color.b) | unorm16(color.a) << 16,
-                 halves(color.r, color.g), half_toward_zero(color.b) | instance << 16}};
-    const glm::vec3 c = glm::vec3(color) * color.a;
-    return {{bits, 0, halves(c.r, c.g), half_toward_zero(c.b) | unorm16(color.a) << 16}, {}};
+    const bool surface = content == FragmentContent::surfaces;
+    const auto alpha = static_cast<std::uint32_t>(color.a * (255 * 2056) + 0.5f);
+    const glm::vec3 c = surface ? glm::vec3(color) : glm::vec3(color) * color.a;
+    // The low bits of alpha are the signs of the halves.
+    const std::uint32_t first =
+        half_toward_zero(c.r) | (alpha & 1u) << 15 | (half_toward_zero(c.g) | (alpha >> 1 & 1u) << 15) << 16;
+    const std::uint32_t second = half_toward_zero(c.b) | (alpha >> 2 & 1u) << 15;
+    Stored out{.node = {std::bit_cast<std::uint32_t>(depth), 0, 0, 0}};
+    if (surface)
+        out.look = {unorm16(color.r) | unorm16(color.g) << 16, unorm16(color.b) | (alpha >> 3) << 16, first,
+                    second | instance << 16};
+    else
+        out.node.z = first, out.node.w = second | (alpha >> 3) << 16;
+    return out;
 }
 
 }  // namespace
@@ -243,5 +248,56 @@ TEMPLATE_LIST_TEST_CASE("lists are the same, bit for bit, in any number of bands
             CHECK(cut == whole);
             bands = cut.bands;
         }
+    }
+}
+
+TEST_CASE("the turns that a walk takes, and the deepest walk of so many turns", "[cpu]") {
+    for (const std::uint32_t visit : {0u, 1u, 12u})
+        for (const std::uint32_t layers : {0u, 1u, 16u, 17u, 32u, 33u, 500u, 4096u, 100000u}) {
+            // As the shader's loops go: a window of 16 for each 16 layers, and in each all of them, 32 a turn.
+            std::uint64_t turns = 0;
+            for (std::uint64_t rank = 0; rank < layers; rank += 16) {
+                ++turns;
+                for (std::uint64_t start = 0; start < layers; start += 32) ++turns;
+                turns += std::min<std::uint64_t>(16, layers - rank) * visit;
+            }
+            INFO(layers << " layers, " << visit << " turns a visit");
+            CHECK(walk_turns(layers, visit) == turns);
+        }
+    for (const std::uint32_t visit : {0u, 1u, 12u})
+        for (const std::uint32_t turns : {1u, 2u, 100u, 65535u, 1000000u}) {
+            const std::uint32_t most = deepest_walk(turns, visit);
+            INFO(turns << " turns, " << visit << " a visit: " << most);
+            CHECK(walk_turns(most, visit) <= turns);
+            CHECK(walk_turns(most + 1, visit) > turns);
+        }
+    CHECK(deepest_walk(65535, 0) == 5760);
+    CHECK(deepest_walk(0, 12) == 1u << 24);  // no limit but that of the counts
+}
+
+TEMPLATE_LIST_TEST_CASE("a pixel deeper than the device can walk is refused with a sentence", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    const rhi::DeviceInfo& info = device->info();
+    CHECK((info.max_loop_turns == rhi::llvmpipe_loop_turns) == info.software);
+    const Scene scene = make_cyclic_triangles();
+    PassStage<TestType> stage(*device, scene, {.size = {16, 24}});
+    auto count = must(LayerCountPass<TestType>::create(*device, stage.fragments()));
+    for (const std::uint32_t visit : {0u, 12u}) {
+        auto lists = must(FragmentLists<TestType>::create(
+            *device, {.fragments = stage.fragments(), .visit_turns = visit}, count.counts()));
+        const std::uint32_t most = deepest_walk(info.max_loop_turns, visit);
+        if (info.max_loop_turns == 0) continue;
+        std::vector<gpu::LayerStrip> strips(3, {.slots = 8});
+        strips[1] = {.deepest = most, .slots = 8 * most};
+        CHECK(lists.prepare(*device, strips));
+        strips[1] = {.deepest = most + 1, .slots = 8 * (most + 1)};
+        const auto refused = lists.prepare(*device, strips);
+        REQUIRE_FALSE(refused);
+        CHECK(refused.error().code == Errc::unsupported);
+        const std::string& message = refused.error().message;
+        INFO(message);
+        CHECK(message.find("rows 8 to 15 has " + std::to_string(most + 1) + " translucent") != std::string::npos);
+        CHECK(message.find("which sort " + std::to_string(most) + ":") != std::string::npos);
     }
 }

@@ -150,8 +150,7 @@ TEMPLATE_LIST_TEST_CASE("layers can be asked for after a frame of any method", "
     const Extent2D size{64, 48};
     const auto reference = must(reference::render(scene, scene.cameras.front(), {.size = size, .stability = true}));
     Image<std::uint32_t> first;
-    for (const Transparency method : {Transparency::sorted, Transparency::peel, Transparency::peel_seed,
-                                      Transparency::dual_peel, Transparency::abuffer}) {
+    for (const Transparency method : all_methods()) {
         RenderSettings settings = settings_for(1);
         settings.size = size;
         settings.transparency = method;

@@ -142,17 +142,14 @@ TEMPLATE_LIST_TEST_CASE("transparency: no bit depends on the order of instances"
         std::vector<std::vector<ImageF>> pictures(exact_without_light.size());
         std::vector<Instance>& instances = sample.scene.instances;
         std::mt19937 random(3);
-        for (int order = 0; order < 3; ++order) {
+        for (int order = 0; order < 2; ++order) {
             for (std::size_t m = 0; m < pictures.size(); ++m) {
                 RenderSettings settings = settings_for(96);
                 settings.transparency = exact_without_light[m];
                 pictures[m].push_back(
                     shoot<TestType>(*device, sample.scene, sample.scene.cameras.front(), settings).hdr);
             }
-            if (order == 0)
-                std::reverse(instances.begin(), instances.end());
-            else
-                for (std::size_t i = instances.size(); i > 1; --i) std::swap(instances[i - 1], instances[random() % i]);
+            for (std::size_t i = instances.size(); i > 1; --i) std::swap(instances[i - 1], instances[random() % i]);
         }
         for (std::size_t m = 0; m < pictures.size(); ++m) {
             const auto variance = must(measure::order_variance(pictures[m]));
@@ -173,6 +170,7 @@ TEST_CASE("transparency: Vulkan and OpenGL draw sample scenes alike", "[gpu]") {
     for (const Sample& sample : samples())
         for (const Transparency method : exact_methods)
             for (const bool exact : {true, false}) {
+                if (!exact && sample.scene.lights.empty()) continue;  // it is lighting that has two builds
                 RenderSettings settings = settings_for(96);
                 settings.transparency = method;
                 settings.exact = exact;
