@@ -86,6 +86,7 @@ void Translucent<B>::declare_sorted() {
 template <rhi::Backend B>
 void Translucent<B>::declare_peel() {
     using enum rhi::TextureUsage;
+    declare_layer_count();
     const GraphTexture next = target(rhi::Format::r32_float, attachment | sampled, "peel.next");
     const GraphTexture layer = target(rhi::Format::d32_float, attachment, "peel.layer");
     const GraphTexture sum = target(rhi::Format::rgba32_float, attachment | sampled | copy_source, "peel.sum");
@@ -115,8 +116,11 @@ void Translucent<B>::declare_peel() {
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
-            peel_->begin(frame.commands());
-            for (bool more = true; more;) {
+            PELLUCID_CHECK(frame.flush());  // the counts
+            std::vector<rhi::Rect> areas = layer_areas(count_->tile_depths(), settings_->size);
+            bool more = !areas.empty();
+            peel_->begin(frame.commands(), std::move(areas));
+            while (more) {
                 peel_->record_layers(frame.commands(), scene_->binding(), scene_->translucent(),
                                      scene_->translucent_reversed());
                 PELLUCID_CHECK(frame.flush());

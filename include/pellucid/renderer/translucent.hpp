@@ -7,6 +7,7 @@
 #include <pellucid/passes/dual_peel.hpp>
 #include <pellucid/passes/interleaved.hpp>
 #include <pellucid/passes/interleaved_skyx.hpp>
+#include <pellucid/passes/layer_areas.hpp>
 #include <pellucid/passes/layer_count.hpp>
 #include <pellucid/passes/peel.hpp>
 #include <pellucid/passes/peel_seed.hpp>
