@@ -38,7 +38,7 @@ TEST_CASE("areas hold every tile that is so deep, touch one at each edge, and li
         const std::uint32_t columns = (size.width + 7) / 8, rows = (size.height + 7) / 8;
         for (int round = 0; round < 20; ++round) {
             std::vector<std::uint32_t> depths(std::size_t{columns} * rows);
-            for (std::uint32_t& d : depths) d = random() % 3 == 0 ? random() % 40 : 0;
+            for (std::uint32_t& d : depths) d = static_cast<std::uint32_t>(random() % 3 == 0 ? random() % 40 : 0);
             const auto areas = layer_areas(depths, size);
             REQUIRE(areas.size() == *std::max_element(depths.begin(), depths.end()));
             for (std::uint32_t k = 0; k < areas.size(); ++k) {
