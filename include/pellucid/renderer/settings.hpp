@@ -8,6 +8,7 @@
 #include <pellucid/passes/tonemap.hpp>
 #include <glm/vec3.hpp>
 #include <cstdint>
+#include <iterator>
 
 namespace pellucid {
 
@@ -19,9 +20,51 @@ enum class Transparency : std::uint8_t {
     dual_peel,  ///< dual depth peeling, the well-known peer: exact but for fragments of equal depth
     abuffer     ///< exact: every fragment stored, sorted and composited in compute, in bands where memory is short
 };
+
+/// What a method promises, and which settings it heeds: one line a method, in the order of the enumerators.
+struct TransparencyTraits {
+    Transparency method = Transparency::none;
+    const char* name = "";
+    const char* loses = "";          ///< what may be missing from its picture or out of place; empty: nothing
+    bool layers = false;             ///< max_layers
+    bool min_transmittance = false;  ///< min_transmittance
+    bool memory_budget = false;      ///< memory_budget
+    bool audit = false;              ///< audit
+};
+inline constexpr TransparencyTraits all_transparencies[] = {
+    {.method = Transparency::none, .name = "none", .loses = "every translucent surface"},
+    {.method = Transparency::sorted,
+     .name = "sorted",
+     .loses = "the order of surfaces that overlap each other, or themselves, in depth"},
+    {.method = Transparency::peel, .name = "peel", .layers = true, .min_transmittance = true, .audit = true},
+    {.method = Transparency::peel_seed,
+     .name = "peel-seed",
+     .loses =
+         "layers beyond their number, layers closer than 1e-4 in depth, all but one of equal depth, radiance above "
+         "1, and what 8 bits cannot hold",
+     .layers = true},
+    {.method = Transparency::dual_peel,
+     .name = "dual-peel",
+     .loses = "all but one of a pixel's fragments of equal depth",
+     .layers = true},
+    {.method = Transparency::abuffer,
+     .name = "abuffer",
+     .min_transmittance = true,
+     .memory_budget = true,
+     .audit = true}};
+static_assert(
+    [] {
+        for (std::size_t i = 0; i < std::size(all_transparencies); ++i)
+            if (all_transparencies[i].method != static_cast<Transparency>(i)) return false;
+        return true;
+    }(),
+    "all_transparencies is in the order of the enumerators");
+
+[[nodiscard]] constexpr const TransparencyTraits& traits(Transparency t) noexcept {
+    return all_transparencies[static_cast<std::size_t>(t)];
+}
 [[nodiscard]] constexpr const char* name(Transparency t) noexcept {
-    constexpr const char* names[] = {"none", "sorted", "peel", "peel-seed", "dual-peel", "abuffer"};
-    return names[static_cast<std::size_t>(t)];
+    return traits(t).name;
 }
 /// Whether a method draws translucent instances in the order of the scene, each once, with all its faces.
 [[nodiscard]] constexpr bool any_order(Transparency t) noexcept {
@@ -30,7 +73,7 @@ enum class Transparency : std::uint8_t {
 
 struct RenderSettings {
     Extent2D size{1280, 720};  ///< [texel] both in 1 … the device's limit
-    Transparency transparency = Transparency::sorted;
+    Transparency transparency = Transparency::abuffer;
     GBufferLayout gbuffer = GBufferLayout::compact;
     ShadingStage shading = ShadingStage::compute;  ///< where lighting runs
     Brdf brdf = Brdf::gltf;
