@@ -8,7 +8,8 @@ layout(location = 0) in vec3 in_normal;
 layout(location = 1) in vec4 in_tangent;
 layout(location = 2) in vec4 in_uv;
 layout(location = 3) in vec4 in_color;
-layout(location = 4) flat in uvec4 in_draw;  // material, PELLUCID_DRAW_*, id of the draw's triangle 0, PELLUCID_MATERIAL_*
+// Material, PELLUCID_DRAW_* with PELLUCID_MATERIAL_* in the upper half, id of the draw's triangle 0, instance.
+layout(location = 4) flat in uvec4 in_draw;
 layout(location = 5) flat in vec4 in_base_color;
 layout(location = 6) flat in vec4 in_factors;   // metallic, roughness, alpha cutoff, occlusion strength
 layout(location = 7) flat in vec4 in_emissive;  // and the normal map's scale
@@ -36,7 +37,7 @@ MaterialRecord fragment_material() {
     m.occlusion_strength = in_factors.w;
     m.emissive = in_emissive.xyz;
     m.normal_scale = in_emissive.w;
-    m.flags = in_draw.w;
+    m.flags = in_draw.y >> 16u;
     return m;
 }
 

@@ -39,7 +39,7 @@ void main() {
     out_uv = needs(PELLUCID_NEED_TEXTURES) ? vec4(v.u0, v.v0, v.uv1) : vec4(0.0);
     out_color = needs(PELLUCID_NEED_VERTEX_COLORS) ? unpack_color(v.color) : vec4(1.0);
     // Once a vertex instead of once a fragment; what a fragment stage does not read is not loaded.
-    out_draw = uvec4(draw.material, draw.flags, draw.first_primitive, materials[draw.material].flags);
+    out_draw = uvec4(draw.material, draw.flags | materials[draw.material].flags << 16u, draw.first_primitive, draw.instance);
     out_base_color = materials[draw.material].base_color;
     out_factors = needs(PELLUCID_NEED_NORMALS | PELLUCID_NEED_ALPHA_MASK | PELLUCID_NEED_OCCLUSION)
                       ? vec4(materials[draw.material].metallic, materials[draw.material].roughness,

@@ -14,7 +14,6 @@ vec4 shade_fragment() {
         radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, p,
                                                 direction_to_eye(p));
     }
-    EXACT vec3 premultiplied = min(radiance, vec3(65504.0)) * (s.premultiplied ? 1.0 : s.alpha);
-    return vec4(premultiplied, s.alpha);
+    return premultiply(s, radiance);
 }
 #endif

@@ -89,6 +89,12 @@ vec3 shading_normal(MaterialRecord m, Attributes a) {
     return a.front ? n : -n;
 }
 
+// rgb premultiplied by alpha, as every method composites it.
+vec4 premultiply(Surface s, vec3 radiance) {
+    EXACT vec3 color = min(radiance, vec3(65504.0)) * (s.premultiplied ? 1.0 : s.alpha);
+    return vec4(color, s.alpha);
+}
+
 Surface load_surface(MaterialRecord m, Attributes a) {
     Surface s;
     EXACT vec4 base = m.base_color * sample_use(m.base_color_texture, a, vec4(1.0));

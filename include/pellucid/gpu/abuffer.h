@@ -1,43 +1,9 @@
 // SPDX-License-Identifier: MIT
-// The A-buffer: every translucent fragment of a band of strips, those of a group of pixels next to each other, in no
-// order, and lists of the tiles by how deep they are.
+// What the A-buffer's resolve binds beside the lists of fragments.
 #ifndef PELLUCID_GPU_ABUFFER_H
 #define PELLUCID_GPU_ABUFFER_H
-#include "pellucid/gpu/layer_count.h"
+#include "pellucid/gpu/fragment_lists.h"
 
-// Pass group, beside PELLUCID_LAYERS_COUNTS.
-#define PELLUCID_ABUFFER_TARGET 0    // storage image, rgba16f: linear radiance, read and written
-#define PELLUCID_ABUFFER_CURSORS 2   // storage image, r32ui: where the pixel's next fragment goes
-#define PELLUCID_ABUFFER_NODES 3     // storage image, rgba32ui: a texel a fragment, see common/fragment_node.glsl
-#define PELLUCID_ABUFFER_AUDIT 4     // storage image, r32ui: fragments composited in each pixel (audit only)
-#define PELLUCID_ABUFFER_BASES 14    // storage block: uint a strip: where its fragments start
-#define PELLUCID_ABUFFER_CLASSES 15  // storage block: AbufferClass a class; also the arguments of indirect dispatches
-#define PELLUCID_ABUFFER_TILES 16    // storage block: tiles of each class, x | y << 16
-
-#define PELLUCID_ABUFFER_NODE_BYTES 16
-#define PELLUCID_ABUFFER_WIDTH_BITS 14  // fragment n is texel (n mod 2^14, n / 2^14)
-
-// Tiles are resolved with as many registers as their deepest pixel needs: up to 4 layers, 8, 16, any number.
-#define PELLUCID_ABUFFER_CLASS_COUNT 4
-#define PELLUCID_ABUFFER_CLASS(layers) ((layers) <= 4u ? 0u : (layers) <= 8u ? 1u : (layers) <= 16u ? 2u : 3u)
-#define PELLUCID_ABUFFER_CLASS_COLUMNS 256u  // workgroups of a class lie in rows of so many: no dimension is too large
-
-PELLUCID_GPU_BEGIN
-struct AbufferClass {
-    uint columns;  // the arguments of its dispatch
-    uint rows;
-    uint depth;
-    uint tiles;
-};
-PELLUCID_GPU_SIZE(AbufferClass, 16)
-
-// Push data of place and resolve.
-struct AbufferResolve {
-    uint first_strip;
-    uint tile_stride;         // places in a class's list
-    float min_transmittance;  // below it a pixel is done
-    uint reserved;
-};
-PELLUCID_GPU_SIZE(AbufferResolve, 16)
-PELLUCID_GPU_END
+#define PELLUCID_ABUFFER_TARGET 0  // storage image, rgba16f: linear radiance, read and written
+#define PELLUCID_ABUFFER_AUDIT 5   // storage image, r32ui: fragments composited in each pixel (audit only)
 #endif

@@ -76,7 +76,7 @@ struct DrawRecord {
     vec3 normal_y;
     uint triangle_count;
     vec3 normal_z;
-    uint reserved0;
+    uint instance;  // its place in the draw order
     uvec4 reserved;
 };
 PELLUCID_GPU_SIZE(DrawRecord, 128)

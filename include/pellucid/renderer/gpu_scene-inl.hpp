@@ -90,6 +90,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         p.record.first_primitive = primitive;
         p.record.triangle_count = static_cast<std::uint32_t>(mesh.indices.size() / 3);
         p.record.material = mesh.material;
+        p.record.instance = static_cast<std::uint32_t>(placed_.size());
         p.record.flags |= mesh.colors.empty() ? 0u : PELLUCID_DRAW_COLORS;
         primitive += p.record.triangle_count;
         triangles_ += p.record.triangle_count;

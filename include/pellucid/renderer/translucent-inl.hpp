@@ -198,11 +198,12 @@ void Translucent<B>::declare_abuffer() {
             device_ = &device;
             PELLUCID_TRY(abuffer_, AbufferPass<B>::create(device,
                                                           {.fragments = fragments(),
+                                                           .content = fragment_content(),
                                                            .memory_budget = settings_->memory_budget,
                                                            .min_transmittance = settings_->min_transmittance,
                                                            .audit = settings_->audit},
                                                           (*this)[targets_.hdr], count_->counts()));
-            pipelines_ += culls() + 1 + PELLUCID_ABUFFER_CLASS_COUNT;
+            pipelines_ += culls() + 1 + PELLUCID_LISTS_CLASS_COUNT;
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {

@@ -79,6 +79,11 @@ private:
                 .culls = scene_->translucent_culls(),
                 .exact = settings_->exact};
     }
+    /// Surfaces are lit where opaque ones are, but for scenes in which no light falls on any.
+    [[nodiscard]] FragmentContent fragment_content() const {
+        const bool lit = (needs_ & PELLUCID_NEED_NORMALS) != 0 && settings_->shading == ShadingStage::compute;
+        return lit ? FragmentContent::surfaces : FragmentContent::colors;
+    }
     [[nodiscard]] std::uint32_t culls() const {
         return static_cast<std::uint32_t>(std::popcount(scene_->translucent_culls()));
     }

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// Every translucent fragment of the frame in memory, in lists by pixel: what exact and interleaved transparency walk.
+#include <pellucid/gpu/fragment_lists.h>
+#include <pellucid/passes/fragment_desc.hpp>
+#include <pellucid/passes/full_screen.hpp>
+#include <pellucid/passes/strip_bands.hpp>
+#include <pellucid/shaders/fragment_lists.hpp>
+#include <algorithm>
+#include <vector>
+
+namespace pellucid {
+
+/// What the lists hold of a fragment.
+enum class FragmentContent : std::uint8_t {
+    colors,   ///< shaded, 16 bytes: binary16 colour (relative error 2^-12), unorm16 alpha
+    surfaces  ///< to be lit by whoever walks them, 32 bytes: normals within 0.0025°, the rest in 16 bits, metallic in 8
+};
+
+struct FragmentListsDesc {
+    FragmentDesc fragments = {};
+    FragmentContent content = FragmentContent::colors;
+    std::uint64_t memory_budget = 0;  ///< [byte] of stored fragments; 0: what the device can bind
+};
+
+/// Lists of exactly the size that LayerCountPass counted.  Where they exceed the budget the picture is made in bands of
+/// rows, one after the other; nothing is dropped.  Groups of neighbouring pixels lie side by side
+/// (gpu/fragment_lists.h), and tiles are listed by depth, so that shallow ones are sorted in few registers.  Shaders:
+/// shaders/fragment_lists.
+template <rhi::Backend B>
+class FragmentLists {
+public:
+    /// `counts`: LayerCountPass::counts().  Errors: those of creation.
+    [[nodiscard]] static Result<FragmentLists> create(typename B::Device& device, const FragmentListsDesc& desc,
+                                                      rhi::Texture counts);
+
+    /// Once the counts are on the CPU: decides the bands and makes room.  `true`: the images are new, so groups made of
+    /// them must be made again.  Errors: those of `split_strips`, of memory.
+    [[nodiscard]] Result<bool> prepare(typename B::Device& device, std::span<const gpu::LayerStrip> strips);
+    [[nodiscard]] std::span<const StripBand> bands() const { return bands_; }
+
+    /// Records what stores the fragments of one band, tested greater-or-equal against `depth`, which is read only.
+    /// Precondition: no pass is open; a band of the last `prepare`.
+    void record(typename B::Commands& cmd, const StripBand& band, rhi::Texture depth, const SceneBinding& scene,
+                std::span<const DrawItem> items) const;
+
+    /// The pass group of a compute shader that walks the lists, with images and sampled textures of its own.
+    [[nodiscard]] rhi::GroupDesc walker_group(const SmallVector<BoundTexture, 8>& images,
+                                              const SmallVector<BoundTexture, 8>& textures, rhi::Sampler sampler,
+                                              const char* debug_name) const;
+    /// Records a compute pass that walks a band: `pipelines[c]` for the tiles of class c.  `uses`: what it declares
+    /// beside the lists.
+    void walk(typename B::Commands& cmd, const StripBand& band, const SceneBinding& scene, rhi::Uses uses,
+              std::span<const rhi::Pipeline, PELLUCID_LISTS_CLASS_COUNT> pipelines, rhi::Group group,
+              float min_transmittance, const char* name) const;
+
+    [[nodiscard]] bool lit_later() const { return desc_.content == FragmentContent::surfaces; }
+    [[nodiscard]] std::uint64_t bytes() const {
+        return (std::uint64_t{rows_} << PELLUCID_LISTS_WIDTH_BITS) * fragment_bytes();
+    }
+
+private:
+    [[nodiscard]] std::uint32_t fragment_bytes() const { return PELLUCID_LISTS_TEXEL_BYTES * (lit_later() ? 2u : 1u); }
+    [[nodiscard]] std::uint32_t tiles() const;
+    [[nodiscard]] gpu::ListBand push(const StripBand& band, float min_transmittance) const {
+        return {.first_strip = band.first, .tile_stride = tiles(), .min_transmittance = min_transmittance};
+    }
+    void place(typename B::Commands& cmd, const StripBand& band) const;
+
+    FragmentListsDesc desc_;
+    rhi::Texture counts_ = {};
+    rhi::Unique<typename B::Device, rhi::Buffer> bases_, classes_, tiles_;
+    rhi::Unique<typename B::Device, rhi::Texture> cursors_, nodes_, looks_;
+    rhi::Unique<typename B::Device, rhi::Group> place_group_, fill_group_;
+    rhi::Unique<typename B::Device, rhi::Pipeline> place_;
+    CullVariants<B> fill_;
+    std::vector<StripBand> bands_;
+    std::vector<std::uint32_t> strip_bases_;
+    std::uint32_t rows_ = 0;  ///< of `nodes_`
+};
+
+// ------------------------------------------------------------------------------------------------------- bodies
+
+namespace detail {
+
+/// Group layouts of the lists' own passes: images below PELLUCID_PASS_0, buffers from there on.
+inline rhi::GroupLayout list_layout(std::initializer_list<std::uint32_t> bindings) {
+    rhi::GroupLayout layout;
+    for (const std::uint32_t b : bindings)
+        layout.bindings.push_back(
+            {b, b < PELLUCID_PASS_0 ? rhi::BindingKind::storage_texture : rhi::BindingKind::storage_buffer});
+    return layout;
+}
+inline rhi::GroupLayout place_layout() {
+    return list_layout({PELLUCID_LAYERS_COUNTS, PELLUCID_LISTS_CURSORS, PELLUCID_LISTS_BASES, PELLUCID_LISTS_CLASSES,
+                        PELLUCID_LISTS_TILES});
+}
+inline rhi::GroupLayout fill_layout(FragmentContent content) {
+    rhi::GroupLayout layout = list_layout({PELLUCID_LISTS_CURSORS, PELLUCID_LISTS_NODES});
+    if (content == FragmentContent::surfaces)
+        layout.bindings.push_back({PELLUCID_LISTS_LOOKS, rhi::BindingKind::storage_texture});
+    return layout;
+}
+
+}  // namespace detail
+
+template <rhi::Backend B>
+std::uint32_t FragmentLists<B>::tiles() const {
+    return (desc_.fragments.size.width + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE *
+           static_cast<std::uint32_t>(strip_bases_.size());
+}
+
+template <rhi::Backend B>
+Result<FragmentLists<B>> FragmentLists<B>::create(typename B::Device& device, const FragmentListsDesc& desc,
+                                                  rhi::Texture counts) {
+    using enum rhi::BufferUsage;
+    FragmentLists lists;
+    lists.desc_ = desc;
+    lists.counts_ = counts;
+    lists.strip_bases_.resize((desc.fragments.size.height + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE);
+    PELLUCID_OWN(lists.bases_, device,
+                 device.make_buffer({.size = lists.strip_bases_.size() * 4,
+                                     .usage = storage | copy_destination,
+                                     .debug_name = "fragment_lists.bases"}));
+    PELLUCID_OWN(lists.classes_, device,
+                 device.make_buffer({.size = PELLUCID_LISTS_CLASS_COUNT * sizeof(gpu::ListClass),
+                                     .usage = storage | indirect | copy_destination,
+                                     .debug_name = "fragment_lists.classes"}));
+    PELLUCID_OWN(lists.tiles_, device,
+                 device.make_buffer({.size = std::uint64_t{4} * PELLUCID_LISTS_CLASS_COUNT * lists.tiles(),
+                                     .usage = storage,
+                                     .debug_name = "fragment_lists.tiles"}));
+    PELLUCID_OWN(lists.cursors_, device,
+                 device.make_texture({.size = desc.fragments.size,
+                                      .format = rhi::Format::r32_uint,
+                                      .usage = rhi::TextureUsage::storage,
+                                      .debug_name = "fragment_lists.cursors"}));
+    PELLUCID_OWN(lists.place_, device,
+                 device.make_pipeline(rhi::ComputePipelineDesc{.compute = &shaders::fragment_lists_place_comp,
+                                                               .pass_group = detail::place_layout(),
+                                                               .push_bytes = sizeof(gpu::ListBand),
+                                                               .debug_name = "fragment_lists.place"}));
+    const auto constants = desc.fragments.constants();
+    const rhi::Shader* const shade = lists.lit_later()      ? &shaders::fragment_lists_surfaces_frag
+                                     : desc.fragments.exact ? &shaders::fragment_lists_colors_frag_exact
+                                                            : &shaders::fragment_lists_colors_frag;
+    PELLUCID_CHECK(lists.fill_.create(device,
+                                      {.vertex = &shaders::scene_vert,
+                                       .fragment = shade,
+                                       .constants = constants,
+                                       .pass_group = detail::fill_layout(desc.content),
+                                       .scene_group = scene_group_layout(),
+                                       .depth = FragmentDesc::depth_test(),
+                                       .debug_name = "fragment_lists.fill"},
+                                      desc.fragments.culls));
+    return lists;
+}
+
+template <rhi::Backend B>
+Result<bool> FragmentLists<B>::prepare(typename B::Device& device, std::span<const gpu::LayerStrip> strips) {
+    constexpr std::uint32_t width = 1u << PELLUCID_LISTS_WIDTH_BITS;
+    std::uint64_t most = std::uint64_t{device.info().max_texture_size} * width;
+    if (desc_.memory_budget != 0) most = std::min(most, desc_.memory_budget / fragment_bytes());
+    PELLUCID_TRY(bands_, split_strips(strips, most, fragment_bytes()));
+    std::uint32_t needed = 0;
+    for (const StripBand& band : bands_) {
+        std::uint32_t base = 0;
+        for (std::uint32_t i = band.first; i < band.first + band.count; ++i) {
+            strip_bases_[i] = base;
+            base += strips[i].slots;
+        }
+        needed = std::max(needed, band.slots);
+    }
+    const std::uint32_t rows = (needed + width - 1) / width;
+    if (rows <= rows_) return false;
+    rows_ = rows;
+    nodes_.reset();
+    looks_.reset();
+    rhi::TextureDesc pool{.size = {width, rows},
+                          .format = rhi::Format::rgba32_uint,
+                          .usage = rhi::TextureUsage::storage,
+                          .debug_name = "fragment_lists.nodes"};
+    PELLUCID_OWN(nodes_, device, device.make_texture(pool));
+    pool.debug_name = "fragment_lists.looks";
+    if (lit_later()) {
+        PELLUCID_OWN(looks_, device, device.make_texture(pool));
+    }
+    PELLUCID_OWN(place_group_, device,
+                 device.make_group({.layout = detail::place_layout(),
+                                    .bindings = {{.binding = PELLUCID_LAYERS_COUNTS, .texture = counts_},
+                                                 {.binding = PELLUCID_LISTS_CURSORS, .texture = cursors_},
+                                                 {.binding = PELLUCID_LISTS_BASES, .buffer = bases_},
+                                                 {.binding = PELLUCID_LISTS_CLASSES, .buffer = classes_},
+                                                 {.binding = PELLUCID_LISTS_TILES, .buffer = tiles_}},
+                                    .debug_name = "fragment_lists.place"}));
+    rhi::GroupDesc fill{.layout = detail::fill_layout(desc_.content),
+                        .bindings = {{.binding = PELLUCID_LISTS_CURSORS, .texture = cursors_},
+                                     {.binding = PELLUCID_LISTS_NODES, .texture = nodes_}},
+                        .debug_name = "fragment_lists.fill"};
+    if (looks_) fill.bindings.push_back({.binding = PELLUCID_LISTS_LOOKS, .texture = looks_});
+    PELLUCID_OWN(fill_group_, device, device.make_group(fill));
+    return true;
+}
+
+template <rhi::Backend B>
+void FragmentLists<B>::place(typename B::Commands& cmd, const StripBand& band) const {
+    using enum rhi::Access;
+    gpu::ListClass empty[PELLUCID_LISTS_CLASS_COUNT];
+    for (gpu::ListClass& c : empty) c = {.columns = PELLUCID_LISTS_COLUMNS, .depth = 1};
+    cmd.begin_copy(
+        {.uses = {rhi::use(bases_, copy_write), rhi::use(classes_, copy_write)}, .name = "fragment_lists.bases"});
+    cmd.update(bases_, 0, rhi::bytes_of(std::span<const std::uint32_t>(strip_bases_)));
+    cmd.update(classes_, 0, rhi::bytes_of(std::span<const gpu::ListClass>(empty)));
+    cmd.end_copy();
+    cmd.begin_compute(
+        {.uses = {rhi::use(counts_, storage_read), rhi::use(bases_, storage_read), rhi::use(cursors_, storage_write),
+                  rhi::use(classes_, storage_read_write), rhi::use(tiles_, storage_write)},
+         .name = "fragment_lists.place"});
+    cmd.bind_pipeline(place_);
+    cmd.bind_group(place_group_);
+    cmd.push(rhi::bytes_of(push(band, 0)));
+    cmd.dispatch(band.count, 1, 1);
+    cmd.end_compute();
+}
+
+template <rhi::Backend B>
+void FragmentLists<B>::record(typename B::Commands& cmd, const StripBand& band, rhi::Texture depth,
+                              const SceneBinding& scene, std::span<const DrawItem> items) const {
+    using enum rhi::Access;
+    place(cmd, band);
+    rhi::RenderPassDesc pass = desc_.fragments.render_pass(depth, scene, "fragment_lists.fill");
+    pass.uses.push_back(rhi::use(cursors_, storage_read_write));
+    pass.uses.push_back(rhi::use(nodes_, storage_write));
+    if (looks_) pass.uses.push_back(rhi::use(looks_, storage_write));
+    cmd.begin_render(pass);
+    const Extent2D size = desc_.fragments.size;
+    const std::uint32_t top = band.first * PELLUCID_LAYERS_TILE;
+    cmd.set_scissor(
+        {.y = top, .width = size.width, .height = std::min(band.count * PELLUCID_LAYERS_TILE, size.height - top)});
+    draw_items<B>(cmd, fill_, scene, items, fill_group_);
+    cmd.end_render();
+}
+
+template <rhi::Backend B>
+rhi::GroupDesc FragmentLists<B>::walker_group(const SmallVector<BoundTexture, 8>& images,
+                                              const SmallVector<BoundTexture, 8>& textures, rhi::Sampler sampler,
+                                              const char* debug_name) const {
+    rhi::GroupDesc group = sampled_group(sampler, textures, debug_name);
+    const auto image = [&](std::uint32_t binding, rhi::Texture texture) {
+        group.layout.bindings.push_back({binding, rhi::BindingKind::storage_texture});
+        group.bindings.push_back({.binding = binding, .texture = texture});
+    };
+    const auto buffer = [&](std::uint32_t binding, rhi::Buffer made) {
+        group.layout.bindings.push_back({binding, rhi::BindingKind::storage_buffer});
+        group.bindings.push_back({.binding = binding, .buffer = made});
+    };
+    image(PELLUCID_LAYERS_COUNTS, counts_);
+    image(PELLUCID_LISTS_CURSORS, cursors_);
+    image(PELLUCID_LISTS_NODES, nodes_);
+    if (lit_later()) image(PELLUCID_LISTS_LOOKS, looks_);
+    for (const BoundTexture& own : images) image(own.binding, own.texture);
+    buffer(PELLUCID_LISTS_CLASSES, classes_);
+    buffer(PELLUCID_LISTS_TILES, tiles_);
+    return group;
+}
+
+template <rhi::Backend B>
+void FragmentLists<B>::walk(typename B::Commands& cmd, const StripBand& band, const SceneBinding& scene, rhi::Uses uses,
+                            std::span<const rhi::Pipeline, PELLUCID_LISTS_CLASS_COUNT> pipelines, rhi::Group group,
+                            float min_transmittance, const char* name) const {
+    using enum rhi::Access;
+    for (const rhi::Texture t : {counts_, cursors_.get(), nodes_.get()}) uses.push_back(rhi::use(t, storage_read));
+    if (looks_) uses.push_back(rhi::use(looks_, storage_read));
+    uses.push_back(rhi::use(tiles_, storage_read));
+    uses.push_back(rhi::use(classes_, storage_read));
+    uses.push_back(rhi::use(classes_, indirect_read));
+    if (lit_later())
+        for (const rhi::ResourceUse& u : scene.uses) uses.push_back(u);
+    cmd.begin_compute({.uses = uses, .name = name});
+    for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
+        cmd.bind_pipeline(pipelines[c]);
+        if (lit_later()) cmd.bind_frame(scene.frame, scene.records);
+        cmd.bind_group(group);
+        if (lit_later()) cmd.bind_group(scene.group);
+        cmd.push(rhi::bytes_of(push(band, min_transmittance)));
+        cmd.dispatch_indirect(classes_, c * sizeof(gpu::ListClass));
+    }
+    cmd.end_compute();
+}
+
+}  // namespace pellucid

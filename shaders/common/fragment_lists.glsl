@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Walks the fragments of a pixel front to back.  The entry file defines WINDOW, SORT(keys) and DEEP, then `visit`.
+// Fragments are sorted in registers.  One window is enough for the tiles of a shallow class; the deep one takes any number
+// of layers: the nearest WINDOW not visited yet, then the next, at O(n²/WINDOW) loads.
+// With VISIT_IN_LOOP the body of `visit` is compiled once instead of WINDOW times: for those that light.
+#include "common/prelude.glsl"
+#include "common/fragment_node.glsl"
+#include "common/sort_network.glsl"
+
+layout(local_size_x = PELLUCID_LAYERS_TILE, local_size_y = PELLUCID_LAYERS_TILE) in;
+SPEC_CONSTANT(3, CLASS, 0u);
+PASS_IMAGE(PELLUCID_LAYERS_COUNTS, r32f) readonly image2D counts;
+PASS_IMAGE(PELLUCID_LISTS_CURSORS, r32ui) readonly uimage2D cursors;
+PASS_IMAGE(PELLUCID_LISTS_NODES, rgba32ui) readonly uimage2D nodes;
+PASS_BUFFER_READ(PELLUCID_LISTS_CLASSES, ClassBuffer) { ListClass classes[]; };
+PASS_BUFFER_READ(PELLUCID_LISTS_TILES, TileBuffer) { uint tiles[]; };
+PUSH_BLOCK(Push) { ListBand band; };
+#if defined(VISIT_IN_LOOP)
+shared uint sorted[WINDOW][PELLUCID_LAYERS_TILE * PELLUCID_LAYERS_TILE];
+#endif
+
+// One fragment: 0 is the nearest.  False ends the walk.
+bool visit(uint rank, uint place);
+
+const Key NOTHING = Key(-1.0, 0, 0u);
+
+Key load_key(uint first, uint i) {
+    uint place = first + PELLUCID_LAYERS_GROUP * i;
+    uvec2 key = imageLoad(nodes, node_texel(place)).xy;
+    return Key(uintBitsToFloat(key.x), int(key.y), place);
+}
+
+// The pixel of this invocation; false where there is none.
+bool find_pixel(out ivec2 at) {
+    uint index = gl_WorkGroupID.y * PELLUCID_LISTS_COLUMNS + gl_WorkGroupID.x;
+    if (index >= classes[CLASS].tiles) return false;
+    uint tile = tiles[CLASS * band.tile_stride + index];
+    at = ivec2(uvec2(tile & 0xFFFFu, tile >> 16u) * PELLUCID_LAYERS_TILE + gl_LocalInvocationID.xy);
+    return true;
+}
+// Fragments of a pixel; beyond the picture an image reads as 0.
+uint fragment_count(ivec2 at) { return uint(imageLoad(counts, at).r); }
+
+void walk(ivec2 at, uint count) {
+    uint first = imageLoad(cursors, at).r - PELLUCID_LAYERS_GROUP * count;
+    Key last = Key(2.0, 0, 0u);  // the farthest fragment visited
+    uint rank = 0u;
+    bool going = count > 0u;
+    // Loops test at their end: a driver that masks instead of branching runs the body once more otherwise.
+    do {
+        Key keys[WINDOW];
+        for (int w = 0; w < WINDOW; ++w) {
+            keys[w] = NOTHING;
+            if (uint(w) < count) keys[w] = load_key(first, uint(w));
+            if (DEEP && !in_front(last, keys[w])) keys[w] = NOTHING;  // visited
+        }
+        SORT(keys)
+        if (DEEP && count > WINDOW) {
+            uint i = WINDOW;
+            do {
+                Key key = load_key(first, i);
+                if (!in_front(last, key)) key = NOTHING;
+                for (int w = 0; w < WINDOW; ++w) compare_swap(keys[w], key);
+            } while (++i < count);
+        }
+#if defined(VISIT_IN_LOOP)
+        for (int w = 0; w < WINDOW; ++w) sorted[w][gl_LocalInvocationIndex] = keys[w].place;
+        if (going) {
+            uint w = 0u;
+            uint end = min(count - rank, uint(WINDOW));
+            do {
+                going = visit(rank + w, sorted[w][gl_LocalInvocationIndex]);
+            } while (++w < end && going);
+        }
+#else
+        for (int w = 0; w < WINDOW; ++w)
+            if (going && rank + uint(w) < count) going = visit(rank + uint(w), keys[w].place);
+#endif
+        last = keys[WINDOW - 1];
+        rank += uint(WINDOW);
+    } while (DEEP && going && rank < count);
+}
