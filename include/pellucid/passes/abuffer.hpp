@@ -44,13 +44,9 @@ public:
     /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
     template <class F>
     void each_resource(F&& visit) const {
-        const std::uint64_t pixels = std::uint64_t{desc_.fragments.size.width} * desc_.fragments.size.height;
-        visit("abuffer.bases", std::uint64_t{4} * strip_bases_.size());
-        visit("abuffer.classes", PELLUCID_ABUFFER_CLASS_COUNT * sizeof(gpu::AbufferClass));
-        visit("abuffer.tiles", std::uint64_t{4} * PELLUCID_ABUFFER_CLASS_COUNT * tiles());
-        visit("abuffer.cursors", 4 * pixels);
-        visit("abuffer.audit", desc_.audit ? 4 * pixels : 4);
-        if (pool_rows_ > 0) visit("abuffer.nodes", pool_bytes());
+        lists_.each_resource(visit);
+        const Extent2D size = desc_.audit ? desc_.fragments.size : Extent2D{1, 1};
+        visit("abuffer.audit", std::uint64_t{4} * size.width * size.height);
     }
 
 private:

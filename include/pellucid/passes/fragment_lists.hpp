@@ -59,6 +59,17 @@ public:
     [[nodiscard]] std::uint64_t bytes() const {
         return (std::uint64_t{rows_} << PELLUCID_LISTS_WIDTH_BITS) * fragment_bytes();
     }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the lists own.
+    template <class F>
+    void each_resource(F&& visit) const {
+        visit("fragment_lists.bases", std::uint64_t{4} * strip_bases_.size());
+        visit("fragment_lists.classes", PELLUCID_LISTS_CLASS_COUNT * sizeof(gpu::ListClass));
+        visit("fragment_lists.tiles", std::uint64_t{4} * PELLUCID_LISTS_CLASS_COUNT * tiles());
+        visit("fragment_lists.cursors", std::uint64_t{4} * desc_.fragments.size.width * desc_.fragments.size.height);
+        const std::uint64_t each = bytes() / (lit_later() ? 2 : 1);
+        if (nodes_) visit("fragment_lists.nodes", each);
+        if (looks_) visit("fragment_lists.looks", each);
+    }
 
 private:
     [[nodiscard]] std::uint32_t fragment_bytes() const { return PELLUCID_LISTS_TEXEL_BYTES * (lit_later() ? 2u : 1u); }

@@ -2,7 +2,7 @@
 #pragma once
 /// \file
 /// What a scene needs, and why: it culls passes, sizes targets and sets specialisation constant 0 of every shader.
-#include <pellucid/gpu/abuffer.h>
+#include <pellucid/gpu/fragment_lists.h>
 #include <pellucid/gpu/scene.h>
 #include <pellucid/renderer/settings.hpp>
 #include <pellucid/scene/scene.hpp>
@@ -37,7 +37,7 @@ inline constexpr float default_ambient = 0.25f;
                                        device.name + " (" + device.backend + ") " + has +
                                        ": choose another method or another device"};
     };
-    constexpr std::uint32_t side = 1u << PELLUCID_ABUFFER_WIDTH_BITS;
+    constexpr std::uint32_t side = 1u << PELLUCID_LISTS_WIDTH_BITS;
     if (method == Transparency::abuffer && device.max_texture_size < side)
         return refuse("textures of " + std::to_string(side) + " texels a side",
                       "has at most " + std::to_string(device.max_texture_size));
