@@ -51,8 +51,10 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     app.add_flag("--list-devices", o.list_devices, "list the devices of every backend and what each lacks");
     app.add_option("--size", size, "WIDTHxHEIGHT of the picture (1280x720)");
     app.add_option("--camera", o.camera, "index or name of a camera of the scene");
-    app.add_option("--transparency", transparency, "auto, none, sorted, peel, peel-seed, dual-peel or abuffer")
-        ->check(CLI::IsMember({"auto", "none", "sorted", "peel", "peel-seed", "dual-peel", "abuffer"}));
+    app.add_option("--transparency", transparency,
+                   "auto, none, sorted, peel, peel-seed, dual-peel, interleaved, interleaved-skyx or abuffer")
+        ->check(CLI::IsMember({"auto", "none", "sorted", "peel", "peel-seed", "dual-peel", "interleaved",
+                               "interleaved-skyx", "abuffer"}));
     add_choice<GBufferLayout>(app, "--gbuffer", o.settings.gbuffer,
                               {{"compact", GBufferLayout::compact}, {"classic", GBufferLayout::classic}},
                               "compact (16 bytes a pixel) or classic (36)");
@@ -108,8 +110,9 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     if (!background.empty())
         if (const std::string wrong = parse_color(background, o.settings.background); !wrong.empty())
             return {o, usage(wrong)};
-    for (const Transparency t : {Transparency::none, Transparency::sorted, Transparency::peel, Transparency::peel_seed,
-                                 Transparency::dual_peel, Transparency::abuffer})
+    for (const Transparency t :
+         {Transparency::none, Transparency::sorted, Transparency::peel, Transparency::peel_seed,
+          Transparency::dual_peel, Transparency::interleaved, Transparency::interleaved_skyx, Transparency::abuffer})
         if (transparency == name(t)) o.settings.transparency = t;
     if (environment == "none") o.settings.default_light = false;
     if (budget_option->count() > 0) o.error_budget = budget;

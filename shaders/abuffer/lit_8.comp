@@ -3,6 +3,5 @@
 // SPDX-License-Identifier: MIT
 #define WINDOW 8
 #define SORT(keys) SORT8(keys, 0)
-#define DEEP false
 #define ABUFFER_LIT
 #include "common/abuffer_resolve.glsl"

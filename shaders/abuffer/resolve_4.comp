@@ -3,5 +3,4 @@
 // SPDX-License-Identifier: MIT
 #define WINDOW 4
 #define SORT(keys) SORT4(keys, 0)
-#define DEEP false
 #include "common/abuffer_resolve.glsl"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Walks the fragments of a pixel front to back.  The entry file defines WINDOW, SORT(keys) and DEEP, then `visit`.
-// Fragments are sorted in registers.  One window is enough for the tiles of a shallow class; the deep one takes any number
-// of layers: the nearest WINDOW not visited yet, then the next, at O(n²/WINDOW) loads.
+// Walks the fragments of a pixel front to back.  The entry file defines WINDOW and SORT(keys), then `visit`.
+// Fragments are sorted in registers.  One window is enough for the tiles of a shallow class.  The entry of the deep class
+// defines BITONIC(keys) too and takes any number of layers: the nearest WINDOW not visited yet are gathered block by block
+// and visited, then the next, at O(n²/WINDOW) loads.
 // With VISIT_IN_LOOP the body of `visit` is compiled once instead of WINDOW times: for those that light.
 #include "common/prelude.glsl"
 #include "common/fragment_node.glsl"
@@ -49,20 +50,30 @@ void walk(ivec2 at, uint count) {
     // Loops test at their end: a driver that masks instead of branching runs the body once more otherwise.
     do {
         Key keys[WINDOW];
+#if defined(BITONIC)
+        for (int w = 0; w < WINDOW; ++w) keys[w] = NOTHING;
+        uint start = 0u;
+        do {
+            Key block[WINDOW];
+            for (int w = 0; w < WINDOW; ++w) {
+                block[w] = NOTHING;
+                if (start + uint(w) < count) block[w] = load_key(first, start + uint(w));
+                if (!in_front(last, block[w])) block[w] = NOTHING;  // visited
+            }
+            SORT(block)
+            // The nearest of both: of two sorted halves that meet at their far ends, the nearer of each pair.
+            for (int w = 0; w < WINDOW; ++w)
+                if (in_front(block[WINDOW - 1 - w], keys[w])) keys[w] = block[WINDOW - 1 - w];
+            BITONIC(keys)
+            start += uint(WINDOW);
+        } while (start < count);
+#else
         for (int w = 0; w < WINDOW; ++w) {
             keys[w] = NOTHING;
             if (uint(w) < count) keys[w] = load_key(first, uint(w));
-            if (DEEP && !in_front(last, keys[w])) keys[w] = NOTHING;  // visited
         }
         SORT(keys)
-        if (DEEP && count > WINDOW) {
-            uint i = WINDOW;
-            do {
-                Key key = load_key(first, i);
-                if (!in_front(last, key)) key = NOTHING;
-                for (int w = 0; w < WINDOW; ++w) compare_swap(keys[w], key);
-            } while (++i < count);
-        }
+#endif
 #if defined(VISIT_IN_LOOP)
         for (int w = 0; w < WINDOW; ++w) sorted[w][gl_LocalInvocationIndex] = keys[w].place;
         if (going) {
@@ -78,5 +89,9 @@ void walk(ivec2 at, uint count) {
 #endif
         last = keys[WINDOW - 1];
         rank += uint(WINDOW);
-    } while (DEEP && going && rank < count);
+#if defined(BITONIC)
+    } while (going && rank < count);
+#else
+    } while (false);
+#endif
 }

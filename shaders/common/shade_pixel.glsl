@@ -2,6 +2,10 @@
 // Lighting of one G-buffer pixel: the body of the fragment and of the compute variant, in both layouts.
 #include "common/gbuffer_read.glsl"
 #include "common/lighting.glsl"
+#if defined(LIGHTING_LAYERS)
+#include "common/surface_node.glsl"
+#include "pellucid/gpu/interleaved.h"
+#endif
 
 vec4 shade_pixel(ivec2 at) {
     Pixel p = read_gbuffer(at);
@@ -13,3 +17,16 @@ vec4 shade_pixel(ivec2 at) {
                                                 direction_to_eye(p.position));
     return vec4(min(radiance, vec3(65504.0)), 1.0);
 }
+
+#if defined(LIGHTING_LAYERS)
+PASS_TEXTURE(PELLUCID_INTERLEAVED_NODES) usampler2D chosen_nodes;
+PASS_TEXTURE(PELLUCID_INTERLEAVED_LOOKS) usampler2D chosen_looks;
+
+// Light on the one translucent surface of the pixel, by the same function; 0 where there is none.
+vec4 shade_layer(ivec2 at) {
+    uvec4 node = texelFetch(chosen_nodes, at, 0);
+    if (node.y == 0u) return vec4(0.0);
+    Surface s = unpack_surface(node, texelFetch(chosen_looks, at, 0));
+    return vec4(min(light_surface(s, at, node_depth(node)), vec3(65504.0)), 1.0);
+}
+#endif

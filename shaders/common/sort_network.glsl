@@ -30,18 +30,17 @@ void compare_swap(inout Key a, inout Key b) {
     CAS(k, (a) + 3 * (r), (a) + 4 * (r)) CAS(k, (a) + 5 * (r), (a) + 6 * (r)) \
     CAS(k, (a) + 7 * (r), (a) + 8 * (r)) CAS(k, (a) + 9 * (r), (a) + 10 * (r)) \
     CAS(k, (a) + 11 * (r), (a) + 12 * (r)) CAS(k, (a) + 13 * (r), (a) + 14 * (r))
-#define MERGE32(k, a, r) MERGE16(k, a, 2 * (r)) MERGE16(k, (a) + (r), 2 * (r)) CAS(k, (a) + (r), (a) + 2 * (r)) \
-    CAS(k, (a) + 3 * (r), (a) + 4 * (r)) CAS(k, (a) + 5 * (r), (a) + 6 * (r)) \
-    CAS(k, (a) + 7 * (r), (a) + 8 * (r)) CAS(k, (a) + 9 * (r), (a) + 10 * (r)) \
-    CAS(k, (a) + 11 * (r), (a) + 12 * (r)) CAS(k, (a) + 13 * (r), (a) + 14 * (r)) \
-    CAS(k, (a) + 15 * (r), (a) + 16 * (r)) CAS(k, (a) + 17 * (r), (a) + 18 * (r)) \
-    CAS(k, (a) + 19 * (r), (a) + 20 * (r)) CAS(k, (a) + 21 * (r), (a) + 22 * (r)) \
-    CAS(k, (a) + 23 * (r), (a) + 24 * (r)) CAS(k, (a) + 25 * (r), (a) + 26 * (r)) \
-    CAS(k, (a) + 27 * (r), (a) + 28 * (r)) CAS(k, (a) + 29 * (r), (a) + 30 * (r))
-
 #define SORT2(k, a) MERGE2(k, a, 1)
 #define SORT4(k, a) SORT2(k, a) SORT2(k, (a) + 2) MERGE4(k, a, 1)
 #define SORT8(k, a) SORT4(k, a) SORT4(k, (a) + 4) MERGE8(k, a, 1)
 #define SORT16(k, a) SORT8(k, a) SORT8(k, (a) + 8) MERGE16(k, a, 1)
-#define SORT32(k, a) SORT16(k, a) SORT16(k, (a) + 16) MERGE32(k, a, 1)
+
+// Sorts a bitonic sequence: one that rises and then falls, or the other way round (Batcher 1968).
+#define BITONIC2(k, a) CAS(k, (a), (a) + 1)
+#define BITONIC4(k, a) CAS(k, (a), (a) + 2) CAS(k, (a) + 1, (a) + 3) BITONIC2(k, a) BITONIC2(k, (a) + 2)
+#define BITONIC8(k, a) CAS(k, (a), (a) + 4) CAS(k, (a) + 1, (a) + 5) CAS(k, (a) + 2, (a) + 6) \
+    CAS(k, (a) + 3, (a) + 7) BITONIC4(k, a) BITONIC4(k, (a) + 4)
+#define BITONIC16(k, a) CAS(k, (a), (a) + 8) CAS(k, (a) + 1, (a) + 9) CAS(k, (a) + 2, (a) + 10) \
+    CAS(k, (a) + 3, (a) + 11) CAS(k, (a) + 4, (a) + 12) CAS(k, (a) + 5, (a) + 13) CAS(k, (a) + 6, (a) + 14) \
+    CAS(k, (a) + 7, (a) + 15) BITONIC8(k, a) BITONIC8(k, (a) + 8)
 #endif

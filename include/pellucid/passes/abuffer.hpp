@@ -92,9 +92,9 @@ template <rhi::Backend B>
 Result<void> AbufferPass<B>::make_pipelines(typename B::Device& device, const rhi::GroupLayout& layout) {
     using namespace shaders;
     const rhi::Shader* const colors[] = {&abuffer_resolve_4_comp, &abuffer_resolve_8_comp, &abuffer_resolve_16_comp,
-                                         &abuffer_resolve_32_comp};
-    const rhi::Shader* const lit[2][2] = {{&abuffer_lit_8_comp, &abuffer_lit_32_comp},
-                                          {&abuffer_lit_8_comp_exact, &abuffer_lit_32_comp_exact}};
+                                         &abuffer_resolve_deep_comp};
+    const rhi::Shader* const lit[2][2] = {{&abuffer_lit_8_comp, &abuffer_lit_deep_comp},
+                                          {&abuffer_lit_8_comp_exact, &abuffer_lit_deep_comp_exact}};
     for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
         const auto shading = desc_.fragments.constants();
         const rhi::SpecConstant constants[] = {shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, {3, c}};

@@ -79,7 +79,7 @@ public:
     }
 
     /// Records a render pass of `targets` (attachments and size) with one draw.  `inside(commands, draw)` may do more:
-    /// it must call `draw()` once.  Precondition: no pass is open.
+    /// it must call `draw()`, once or more.  Precondition: no pass is open.
     template <class Inside>
     void record(typename B::Commands& cmd, rhi::RenderPassDesc targets, Inside&& inside) const {
         for (const BoundTexture& t : textures_) targets.uses.push_back(rhi::use(t.texture, rhi::Access::sampled));

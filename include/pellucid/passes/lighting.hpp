@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// Deferred lighting: every light of the scene at every covered pixel, by a loop, in a compute or a fragment shader.
+#include <pellucid/gpu/interleaved.h>
 #include <pellucid/gpu/lighting.h>
 #include <pellucid/passes/gbuffer.hpp>
 #include <pellucid/shaders/full_screen.hpp>
@@ -32,6 +33,12 @@ struct LightingDesc {
     bool exact = false;
 };
 
+/// One translucent surface a pixel, to be lit beside the opaque one (passes/interleaved.hpp).  `[h, w]` each.
+struct LayerLight {
+    rhi::Texture nodes = {}, looks = {};  ///< rgba32_uint, sampled; null: none is lit
+    rhi::Texture output = {};             ///< rgba16_float, with the usage that `hdr` has; what light adds to them
+};
+
 /// `hdr = emitted + ambient · occlusion · base + Σ f(v, l) N·L E(light)` where depth is not 0, else the background.
 /// Linear radiance, alpha 1.  Formulae and sources: reference/brdf.hpp, reference/lighting.hpp.  Shaders:
 /// shaders/lighting.
@@ -41,8 +48,9 @@ public:
     /// `hdr`: rgba16_float, `[h, w]` like the G-buffer; storage usage for the compute stage, attachment for the other.
     /// Errors: those of pipeline and group creation.
     [[nodiscard]] static Result<LightingPass> create(typename B::Device& device, const LightingDesc& desc,
-                                                     const GBufferTargets& gbuffer, rhi::Texture hdr);
-    /// Records one pass that writes every pixel of `hdr`.  Precondition: no pass is open.
+                                                     const GBufferTargets& gbuffer, rhi::Texture hdr,
+                                                     const LayerLight& layers = {});
+    /// Records one pass that writes every pixel of `hdr`, and of the layers' light.  Precondition: no pass is open.
     void record(typename B::Commands& cmd, const SceneBinding& scene) const;
 
 private:
@@ -50,7 +58,7 @@ private:
     rhi::Unique<typename B::Device, rhi::Group> group_;
     rhi::Unique<typename B::Device, rhi::Pipeline> pipeline_;
     rhi::Uses uses_ = {};
-    rhi::Texture hdr_ = {};
+    rhi::Texture hdr_ = {}, layer_light_ = {};
     Extent2D size_ = {};
     ShadingStage stage_ = ShadingStage::compute;
 };
@@ -80,13 +88,30 @@ inline rhi::GroupDesc gbuffer_group(const GBufferTargets& gbuffer, bool emissive
     return group;
 }
 
+/// Adds the layers to the group of a lighting pass.
+inline void add_layers(rhi::GroupDesc& group, rhi::Sampler sampler, const LayerLight& layers, bool compute) {
+    const auto add = [&](std::uint32_t binding, rhi::BindingKind kind, const rhi::Binding& bound) {
+        group.layout.bindings.push_back({binding, kind});
+        group.bindings.push_back(bound);
+    };
+    using enum rhi::BindingKind;
+    constexpr std::uint32_t nodes = PELLUCID_INTERLEAVED_NODES, looks = PELLUCID_INTERLEAVED_LOOKS;
+    add(nodes, sampled_texture, {.binding = nodes, .texture = layers.nodes, .sampler = sampler});
+    add(looks, sampled_texture, {.binding = looks, .texture = layers.looks, .sampler = sampler});
+    if (compute)
+        add(PELLUCID_INTERLEAVED_OUTPUT, storage_texture,
+            {.binding = PELLUCID_INTERLEAVED_OUTPUT, .texture = layers.output});
+}
+
 }  // namespace detail
 
 template <rhi::Backend B>
 Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, const LightingDesc& desc,
-                                                const GBufferTargets& gbuffer, rhi::Texture hdr) {
+                                                const GBufferTargets& gbuffer, rhi::Texture hdr,
+                                                const LayerLight& layers) {
     LightingPass pass;
     pass.hdr_ = hdr;
+    pass.layer_light_ = layers.output;
     pass.size_ = gbuffer.size;
     pass.stage_ = desc.stage;
     const bool compute = desc.stage == ShadingStage::compute;
@@ -98,8 +123,14 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
                                       .wrap_u = rhi::Wrap::clamp,
                                       .wrap_v = rhi::Wrap::clamp,
                                       .debug_name = "lighting.gbuffer"}));
-    const rhi::GroupDesc group =
+    rhi::GroupDesc group =
         detail::gbuffer_group(gbuffer, desc.emissive, pass.sampler_, compute ? hdr : rhi::Texture{}, "lighting");
+    if (layers.output) {
+        detail::add_layers(group, pass.sampler_, layers, compute);
+        for (const rhi::Texture t : {layers.nodes, layers.looks})
+            pass.uses_.push_back(rhi::use(t, rhi::Access::sampled));
+        if (compute) pass.uses_.push_back(rhi::use(layers.output, rhi::Access::storage_write));
+    }
     PELLUCID_OWN(pass.group_, device, device.make_group(group));
     for (const rhi::Texture texture : gbuffer.colors) pass.uses_.push_back(rhi::use(texture, rhi::Access::sampled));
     pass.uses_.push_back(rhi::use(gbuffer.depth, rhi::Access::sampled));
@@ -109,11 +140,16 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
     const std::uint32_t needs = desc.emissive ? desc.needs : desc.needs & ~PELLUCID_NEED_EMISSIVE;
     const rhi::SpecConstant constants[] = {{0, needs}, {1, static_cast<std::uint32_t>(desc.brdf)}};
     using namespace shaders;
-    const rhi::Shader* const all[2][2][2] = {
-        {{&lighting_comp, &lighting_comp_exact}, {&lighting_frag, &lighting_frag_exact}},
-        {{&lighting_classic_comp, &lighting_classic_comp_exact},
-         {&lighting_classic_frag, &lighting_classic_frag_exact}}};
-    const rhi::Shader* const shader = all[compact ? 0 : 1][compute ? 0 : 1][desc.exact ? 1 : 0];
+    const rhi::Shader* const all[2][2][2][2] = {
+        {{{&lighting_comp, &lighting_comp_exact}, {&lighting_frag, &lighting_frag_exact}},
+         {{&lighting_classic_comp, &lighting_classic_comp_exact},
+          {&lighting_classic_frag, &lighting_classic_frag_exact}}},
+        {{{&lighting_layers_comp, &lighting_layers_comp_exact}, {&lighting_layers_frag, &lighting_layers_frag_exact}},
+         {{&lighting_classic_layers_comp, &lighting_classic_layers_comp_exact},
+          {&lighting_classic_layers_frag, &lighting_classic_layers_frag_exact}}}};
+    const rhi::Shader* const shader = all[layers.output ? 1 : 0][compact ? 0 : 1][compute ? 0 : 1][desc.exact ? 1 : 0];
+    SmallVector<rhi::ColorTarget, rhi::max_color_attachments> colors{{.format = rhi::Format::rgba16_float}};
+    if (layers.output) colors.push_back({.format = rhi::Format::rgba16_float});
     if (compute) {
         PELLUCID_OWN(pass.pipeline_, device,
                      device.make_pipeline(rhi::ComputePipelineDesc{.compute = shader,
@@ -128,7 +164,7 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
                                                                     .constants = constants,
                                                                     .pass_group = group.layout,
                                                                     .scene_group = scene_group_layout(),
-                                                                    .colors = {{.format = rhi::Format::rgba16_float}},
+                                                                    .colors = colors,
                                                                     .cull = rhi::Cull::none,
                                                                     .debug_name = "lighting"}));
     }
@@ -140,13 +176,14 @@ void LightingPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
     rhi::Uses uses = scene.uses;
     for (const rhi::ResourceUse& u : uses_) uses.push_back(u);
     const bool compute = stage_ == ShadingStage::compute;
-    if (compute)
+    if (compute) {
         cmd.begin_compute({.uses = uses, .name = "lighting"});
-    else
-        cmd.begin_render({.colors = {{.texture = hdr_, .load = rhi::Load::discard}},
-                          .uses = uses,
-                          .size = size_,
-                          .name = "lighting"});
+    } else {
+        rhi::RenderPassDesc pass{
+            .colors = {{.texture = hdr_, .load = rhi::Load::discard}}, .uses = uses, .size = size_, .name = "lighting"};
+        if (layer_light_) pass.colors.push_back({.texture = layer_light_, .load = rhi::Load::discard});
+        cmd.begin_render(pass);
+    }
     cmd.bind_pipeline(pipeline_);
     cmd.bind_frame(scene.frame, scene.records);
     cmd.bind_group(group_);

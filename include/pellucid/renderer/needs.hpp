@@ -51,14 +51,17 @@ inline constexpr float default_ambient = 0.25f;
     SceneNeeds needs;
     auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
     bool lit = false;
+    bool deferred = false;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
         const Material& m = scene.materials[mesh.material];
         const bool blend = m.alpha_mode == AlphaMode::blend;
         if (blend && settings.transparency == Transparency::none) continue;
         (blend ? needs.translucent : needs.opaque) = true;
+        deferred = deferred || (blend && lit_with_opaque(settings.transparency));
         const bool emits = m.emissive != glm::vec3(0) || m.unlit;
-        needs.emissive_target = needs.emissive_target || (emits && !blend);
+        const bool in_gbuffer = !blend || settings.transparency == Transparency::interleaved_skyx;
+        needs.emissive_target = needs.emissive_target || (emits && in_gbuffer);
         mark(PELLUCID_NEED_EMISSIVE, emits);
         mark(PELLUCID_NEED_UNLIT, m.unlit);
         lit = lit || !m.unlit;
@@ -72,6 +75,7 @@ inline constexpr float default_ambient = 0.25f;
             mark(PELLUCID_NEED_SECOND_UV, ref->used() && ref->uv_set == 1);
         }
     }
+    needs.opaque = needs.opaque || deferred;
     for (const Light& light : scene.lights) {
         mark(PELLUCID_NEED_DIRECTIONAL, light.kind == LightKind::directional);
         mark(PELLUCID_NEED_POINTS, light.kind == LightKind::point);

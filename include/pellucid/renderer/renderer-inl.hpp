@@ -41,11 +41,14 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     if (needs_.opaque || needs_.translucent)
         depth_ = target(rhi::Format::d32_float, attachment | sampled | copy_source, "depth");
 
-    if (needs_.opaque)
-        declare_opaque();
-    else
+    translucent_.start(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
+    if (needs_.opaque) {
+        declare_gbuffer();
+        declare_lighting(translucent_.declare_before_lighting(colors_, gbuffer_));
+    } else {
         declare_background();
-    translucent_.declare(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
+    }
+    translucent_.declare_after_lighting();
     declare_tonemap();
     graph_.keep(hdr_);
     graph_.keep(display_);
@@ -58,7 +61,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
 }
 
 template <rhi::Backend B>
-void Renderer<B>::declare_opaque() {
+void Renderer<B>::declare_gbuffer() {
     constexpr const char* compact_names[] = {"gbuffer.normal", "gbuffer.base", "gbuffer.material", "gbuffer.emissive"};
     constexpr const char* classic_names[] = {"gbuffer.position", "gbuffer.normal", "gbuffer.base", "gbuffer.material",
                                              "gbuffer.emissive"};
@@ -71,11 +74,7 @@ void Renderer<B>::declare_opaque() {
              .usage = attachment | sampled | copy_source,
              .debug_name = settings_.gbuffer == GBufferLayout::compact ? compact_names[i] : classic_names[i]}));
     GraphPassDesc fill{.name = "gbuffer", .writes = {depth_}};
-    GraphPassDesc light{.name = "lighting", .reads = {depth_}, .writes = {hdr_}};
-    for (const GraphTexture t : colors_) {
-        fill.writes.push_back(t);
-        light.reads.push_back(t);
-    }
+    for (const GraphTexture t : colors_) fill.writes.push_back(t);
     graph_.add(
         fill,
         [this](typename B::Device& device) -> Result<void> {
@@ -91,9 +90,29 @@ void Renderer<B>::declare_opaque() {
         [this](typename B::Commands& cmd) {
             gbuffer_pass_->record(cmd, gbuffer_, scene_->binding(), scene_->opaque());
         });
+}
+
+template <rhi::Backend B>
+void Renderer<B>::declare_lighting(const LightingChanges& changes) {
+    const GraphTexture depth = changes.depth ? changes.depth : depth_;
+    const GraphTexture output = changes.output ? changes.output : hdr_;
+    GraphPassDesc light{.name = "lighting", .reads = {depth}, .writes = {output}};
+    for (const GraphTexture t : colors_) light.reads.push_back(t);
+    if (changes.layer_light) {
+        light.reads.push_back(changes.nodes);
+        light.reads.push_back(changes.looks);
+        light.writes.push_back(changes.layer_light);
+    }
     graph_.add(
         light,
-        [this](typename B::Device& device) -> Result<void> {
+        [this, changes, depth, output](typename B::Device& device) -> Result<void> {
+            GBufferTargets surfaces = gbuffer_;
+            surfaces.depth = graph_[depth];
+            LayerLight layers;
+            if (changes.layer_light)
+                layers = {.nodes = graph_[changes.nodes],
+                          .looks = graph_[changes.looks],
+                          .output = graph_[changes.layer_light]};
             PELLUCID_TRY(lighting_pass_, LightingPass<B>::create(device,
                                                                  {.layout = settings_.gbuffer,
                                                                   .emissive = needs_.emissive_target,
@@ -101,7 +120,7 @@ void Renderer<B>::declare_opaque() {
                                                                   .brdf = settings_.brdf,
                                                                   .needs = needs_.mask,
                                                                   .exact = settings_.exact},
-                                                                 gbuffer_, graph_[hdr_]));
+                                                                 surfaces, graph_[output], layers));
             ++pipelines_;
             return {};
         },

@@ -60,8 +60,8 @@ public:
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
     /// `[h, w, 1]` fragments that the last frame composited in each pixel, with settings.audit; waits.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited() { return translucent_.read_composited(*device_); }
-    /// In [0,1]: a bound of what the last frame left out, as a share of the largest radiance behind; waits.
-    /// `invalid_argument` for methods without one: all but peel and abuffer.
+    /// In [0,1]: a bound of what fragments that the last frame left out are worth, as a share of the largest radiance
+    /// behind; waits.  `invalid_argument` for methods without one: those that do not heed min_transmittance.
     [[nodiscard]] Result<double> read_transmittance_left() { return translucent_.read_transmittance_left(*device_); }
 
     [[nodiscard]] RenderStats stats() const;
@@ -76,7 +76,8 @@ public:
 private:
     explicit Renderer(typename B::Device& device) : device_(&device) {}
     [[nodiscard]] Result<void> build(const Scene& scene);
-    void declare_opaque();
+    void declare_gbuffer();
+    void declare_lighting(const LightingChanges& changes);
     void declare_background();
     void declare_tonemap();
     [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);

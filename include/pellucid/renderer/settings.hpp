@@ -13,12 +13,14 @@
 namespace pellucid {
 
 enum class Transparency : std::uint8_t {
-    none,       ///< translucent surfaces are left out
-    sorted,     ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
-    peel,       ///< exact: depth peeling in two phases, by blending and depth tests alone
-    peel_seed,  ///< six layers, as in the document the project grew from; kept to be measured
-    dual_peel,  ///< dual depth peeling, the well-known peer: exact but for fragments of equal depth
-    abuffer     ///< exact: every fragment stored, sorted and composited in compute, in bands where memory is short
+    none,              ///< translucent surfaces are left out
+    sorted,            ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
+    peel,              ///< exact: depth peeling in two phases, by blending and depth tests alone
+    peel_seed,         ///< six layers, as in the document the project grew from; kept to be measured
+    dual_peel,         ///< dual depth peeling, the well-known peer: exact but for fragments of equal depth
+    interleaved_skyx,  ///< one surface a pixel, opaque or not, united in windows of 2×2; kept to be measured
+    interleaved,  ///< exact but for light: one translucent surface a pixel is lit, the others find theirs beside them
+    abuffer       ///< exact: every fragment stored, sorted and composited in compute, in bands where memory is short
 };
 
 /// What a method promises, and which settings it heeds: one line a method, in the order of the enumerators.
@@ -47,6 +49,16 @@ inline constexpr TransparencyTraits all_transparencies[] = {
      .name = "dual-peel",
      .loses = "all but one of a pixel's fragments of equal depth",
      .layers = true},
+    {.method = Transparency::interleaved_skyx,
+     .name = "interleaved-skyx",
+     .loses =
+         "opaque detail behind translucent surfaces, a pixel at silhouettes, all but one surface of an instance, all "
+         "but three layers, and their order"},
+    {.method = Transparency::interleaved,
+     .name = "interleaved",
+     .loses = "light that changes within a pixel of a surface whose neighbours agree",
+     .min_transmittance = true,
+     .memory_budget = true},
     {.method = Transparency::abuffer,
      .name = "abuffer",
      .min_transmittance = true,
@@ -66,6 +78,10 @@ static_assert(
 [[nodiscard]] constexpr const char* name(Transparency t) noexcept {
     return traits(t).name;
 }
+/// Whether a method's translucent surfaces are lit in the lighting pass, which then runs also where nothing is opaque.
+[[nodiscard]] constexpr bool lit_with_opaque(Transparency t) noexcept {
+    return t == Transparency::interleaved || t == Transparency::interleaved_skyx;
+}
 /// Whether a method draws translucent instances in the order of the scene, each once, with all its faces.
 [[nodiscard]] constexpr bool any_order(Transparency t) noexcept {
     return t != Transparency::none && t != Transparency::sorted;
@@ -83,6 +99,7 @@ struct RenderSettings {
     bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
     std::uint32_t max_layers = 0;     ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
     bool seed_composite = false;      ///< peel_seed: composite with the factors that its document has by mistake
+    bool skyx_alpha_gain = false;     ///< interleaved_skyx: alpha of the picture grows by 1.1 a layer, as it once did
     float min_transmittance = 0;      ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
     std::uint64_t memory_budget = 0;  ///< [byte] of an A-buffer's fragments; 0: what the device can bind
     bool audit = false;               ///< keep, for each pixel, how many fragments were composited (tests)

@@ -7,20 +7,33 @@
 namespace pellucid {
 
 template <rhi::Backend B>
-void Translucent<B>::declare(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs,
-                             const RenderSettings& settings, const Targets& targets) {
+void Translucent<B>::start(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs,
+                           const RenderSettings& settings, const Targets& targets) {
     graph_ = &graph;
     scene_ = &scene;
     settings_ = &settings;
-    needs_ = needs.mask;
+    needs_ = needs;
     targets_ = targets;
-    ran_ = needs.translucent;
-    if (!needs.translucent) {
-        const bool off = settings.transparency == Transparency::none;
-        graph.leave_out("transparency", off ? "transparency is switched off" : "the scene has no translucent surface");
+}
+
+template <rhi::Backend B>
+LightingChanges Translucent<B>::declare_before_lighting(std::span<const GraphTexture> colors,
+                                                        const GBufferTargets& gbuffer) {
+    if (!needs_.translucent) return {};
+    if (settings_->transparency == Transparency::interleaved) declare_interleaved_select();
+    if (settings_->transparency == Transparency::interleaved_skyx) declare_interleaved_skyx_layers(colors, gbuffer);
+    return lighting_;
+}
+
+template <rhi::Backend B>
+void Translucent<B>::declare_after_lighting() {
+    if (!needs_.translucent) {
+        const bool off = settings_->transparency == Transparency::none;
+        graph_->leave_out("transparency",
+                          off ? "transparency is switched off" : "the scene has no translucent surface");
         return;
     }
-    switch (settings.transparency) {
+    switch (settings_->transparency) {
         case Transparency::none:
             break;
         case Transparency::sorted:
@@ -31,6 +44,10 @@ void Translucent<B>::declare(Graph<B>& graph, const GpuScene<B>& scene, const Sc
             return declare_peel_seed();
         case Transparency::dual_peel:
             return declare_dual_peel();
+        case Transparency::interleaved_skyx:
+            return declare_interleaved_skyx_merge();
+        case Transparency::interleaved:
+            return declare_interleaved_merge();
         case Transparency::abuffer:
             return declare_abuffer();
     }
@@ -43,12 +60,19 @@ GraphTexture Translucent<B>::target(rhi::Format format, rhi::TextureUsage usage,
 }
 
 template <rhi::Backend B>
+GraphTexture Translucent<B>::lit_target(const char* debug_name) {
+    using enum rhi::TextureUsage;
+    const bool fragment = settings_->shading == ShadingStage::fragment;
+    return target(rhi::Format::rgba16_float, sampled | (fragment ? attachment : storage), debug_name);
+}
+
+template <rhi::Backend B>
 void Translucent<B>::declare_sorted() {
     graph_->add(
         {.name = "sorted_forward", .reads = {targets_.hdr, targets_.depth}, .writes = {targets_.hdr}},
         [this](typename B::Device& device) -> Result<void> {
             PELLUCID_TRY(sorted_, SortedForwardPass<B>::create(device, {.brdf = settings_->brdf,
-                                                                        .needs = needs_,
+                                                                        .needs = needs_.mask,
                                                                         .culls = scene_->translucent_culls(),
                                                                         .exact = settings_->exact}));
             pipelines_ += culls();
@@ -215,6 +239,102 @@ void Translucent<B>::declare_abuffer() {
 }
 
 template <rhi::Backend B>
+void Translucent<B>::declare_interleaved_skyx_layers(std::span<const GraphTexture> colors,
+                                                     const GBufferTargets& gbuffer) {
+    using enum rhi::TextureUsage;
+    const GraphTexture marks = target(rhi::Format::d32_float_s8_uint, attachment, "interleaved_skyx.marks");
+    lighting_.depth = target(rhi::Format::r32_float, attachment | sampled, "interleaved_skyx.depth");
+    lighting_.output = lit_target("interleaved_skyx.light");
+    skyx_info_ = target(rhi::Format::r32_uint, attachment | sampled, "interleaved_skyx.info");
+    GraphPassDesc layers{
+        .name = "interleaved_skyx.layers", .reads = {targets_.depth}, .writes = {marks, lighting_.depth, skyx_info_}};
+    for (const GraphTexture color : colors) {
+        layers.reads.push_back(color);
+        layers.writes.push_back(color);
+    }
+    graph_->add(
+        layers,
+        [this, marks, &gbuffer](typename B::Device& device) -> Result<void> {
+            PELLUCID_TRY(interleaved_skyx_,
+                         InterleavedSkyxPass<B>::create(device,
+                                                        {.gbuffer = {.layout = settings_->gbuffer,
+                                                                     .emissive = needs_.emissive_target,
+                                                                     .needs = needs_.mask,
+                                                                     .culls = scene_->translucent_culls()},
+                                                         .alpha_gain = settings_->skyx_alpha_gain},
+                                                        {.hdr = (*this)[targets_.hdr],
+                                                         .gbuffer = gbuffer,
+                                                         .marks = (*this)[marks],
+                                                         .depth = (*this)[lighting_.depth],
+                                                         .info = (*this)[skyx_info_],
+                                                         .light = (*this)[lighting_.output]}));
+            pipelines_ += culls() + 2;
+            return {};
+        },
+        [this](typename B::Commands& cmd) {
+            interleaved_skyx_->record_layers(cmd, scene_->binding(), scene_->translucent());
+        });
+}
+
+template <rhi::Backend B>
+void Translucent<B>::declare_interleaved_skyx_merge() {
+    graph_->add(
+        {.name = "interleaved_skyx",
+         .reads = {lighting_.output, lighting_.depth, skyx_info_},
+         .writes = {targets_.hdr}},
+        [](typename B::Device&) -> Result<void> { return {}; },
+        [this](typename B::Commands& cmd) { interleaved_skyx_->record_merge(cmd); });
+}
+
+template <rhi::Backend B>
+void Translucent<B>::declare_interleaved_select() {
+    using enum rhi::TextureUsage;
+    declare_layer_count();
+    lighting_.nodes = target(rhi::Format::rgba32_uint, storage | sampled | attachment, "interleaved.nodes");
+    lighting_.looks = target(rhi::Format::rgba32_uint, storage | sampled | attachment, "interleaved.looks");
+    lighting_.layer_light = lit_target("interleaved.light");
+    graph_->add(
+        {.name = "interleaved.select",
+         .reads = {targets_.depth},
+         .writes = {lighting_.nodes, lighting_.looks},
+         .live = true},
+        [this](typename B::Device& device) -> Result<void> {
+            device_ = &device;
+            PELLUCID_TRY(interleaved_, InterleavedPass<B>::create(device,
+                                                                  {.fragments = fragments(),
+                                                                   .memory_budget = settings_->memory_budget,
+                                                                   .min_transmittance = settings_->min_transmittance,
+                                                                   .audit = settings_->audit},
+                                                                  {.hdr = (*this)[targets_.hdr],
+                                                                   .nodes = (*this)[lighting_.nodes],
+                                                                   .looks = (*this)[lighting_.looks],
+                                                                   .light = (*this)[lighting_.layer_light]},
+                                                                  count_->counts()));
+            pipelines_ += culls() + 1 + 2 * PELLUCID_LISTS_CLASS_COUNT;
+            return {};
+        },
+        [this](Frame<B>& frame) -> Result<void> {
+            PELLUCID_CHECK(frame.flush());  // the counts
+            PELLUCID_CHECK(interleaved_->prepare(*device_, count_->strips()));
+            interleaved_->record_select(frame.commands(), (*this)[targets_.depth], scene_->binding(),
+                                        scene_->translucent());
+            return {};
+        });
+}
+
+template <rhi::Backend B>
+void Translucent<B>::declare_interleaved_merge() {
+    graph_->add(
+        {.name = "interleaved",
+         .reads = {targets_.hdr, targets_.depth, lighting_.nodes, lighting_.looks, lighting_.layer_light},
+         .writes = {targets_.hdr}},
+        [](typename B::Device&) -> Result<void> { return {}; },
+        [this](typename B::Commands& cmd) {
+            interleaved_->record_merge(cmd, (*this)[targets_.depth], scene_->binding(), scene_->translucent());
+        });
+}
+
+template <rhi::Backend B>
 Result<Image<std::uint32_t>> Translucent<B>::read_numbers(typename B::Device& device, rhi::Texture texture,
                                                           rhi::Format format) const {
     rhi::Texels texels;
@@ -245,6 +365,7 @@ template <rhi::Backend B>
 Result<Image<std::uint32_t>> Translucent<B>::read_composited(typename B::Device& device) const {
     if (settings_->audit && abuffer_) return read_numbers(device, abuffer_->composited(), rhi::Format::r32_uint);
     if (settings_->audit && peel_) return read_numbers(device, peel_->count(), rhi::Format::r32_float);
+    if (settings_->audit && interleaved_) return read_numbers(device, interleaved_->lit(), rhi::Format::r32_uint);
     return Error{Errc::invalid_argument, std::string("nobody counts what the method '") +
                                              name(settings_->transparency) +
                                              "' composites: set audit, and use peel or abuffer"};
@@ -256,8 +377,8 @@ Result<double> Translucent<B>::read_transmittance_left(typename B::Device& devic
     if (!traits(settings_->transparency).min_transmittance)
         return Error{Errc::invalid_argument, std::string("there is no bound of what the method '") +
                                                  name(settings_->transparency) +
-                                                 "' leaves out: peel and abuffer have one"};
-    if (!ran_) return 0.0;
+                                                 "' leaves out; peel and abuffer have one"};
+    if (!needs_.translucent) return 0.0;
     if (!peel_ || (!peel_->truncated() && least == 0)) return least;
     rhi::Texels next, sum;
     PELLUCID_TRY(next, rhi::download<B>(device, (*this)[peel_next_],
@@ -277,7 +398,7 @@ Result<double> Translucent<B>::read_transmittance_left(typename B::Device& devic
 template <rhi::Backend B>
 TranslucencyStats Translucent<B>::stats() const {
     const TransparencyTraits& method = traits(settings_->transparency);
-    TranslucencyStats out{.method = method.method, .ran = ran_, .loses = method.loses};
+    TranslucencyStats out{.method = method.method, .ran = needs_.translucent, .loses = method.loses};
     const auto lose = [&](const std::string& what) { out.loses += (out.loses.empty() ? "" : "; ") + what; };
     if (method.min_transmittance && settings_->min_transmittance > 0 && !settings_->audit) {
         char share[32];
@@ -301,6 +422,10 @@ TranslucencyStats Translucent<B>::stats() const {
         out.bands = static_cast<std::uint32_t>(abuffer_->bands());
         out.pool_bytes = abuffer_->pool_bytes();
     }
+    if (interleaved_) {
+        out.bands = static_cast<std::uint32_t>(interleaved_->bands());
+        out.pool_bytes = interleaved_->pool_bytes();
+    }
     out.exact = out.loses.empty();
     std::vector<TextureReport> resources;
     add_resources(resources);
@@ -315,6 +440,7 @@ void Translucent<B>::add_resources(std::vector<TextureReport>& out) const {
     const auto add = [&](const char* debug_name, std::uint64_t bytes) { out.push_back({debug_name, bytes, false}); };
     if (count_) count_->each_resource(add);
     if (abuffer_) abuffer_->each_resource(add);
+    if (interleaved_) interleaved_->each_resource(add);
 }
 
 }  // namespace pellucid

@@ -5,6 +5,8 @@
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/abuffer.hpp>
 #include <pellucid/passes/dual_peel.hpp>
+#include <pellucid/passes/interleaved.hpp>
+#include <pellucid/passes/interleaved_skyx.hpp>
 #include <pellucid/passes/layer_count.hpp>
 #include <pellucid/passes/peel.hpp>
 #include <pellucid/passes/peel_seed.hpp>
@@ -28,12 +30,18 @@ struct TranslucencyStats {
     std::uint32_t layers = 0;      ///< peel: peeled; peel_seed: drawn
     bool truncated = false;        ///< peel: max_layers left fragments out.  dual_peel: it may have
     std::uint32_t passes = 0;      ///< dual_peel: that found anything
-    std::uint32_t bands = 0;       ///< abuffer: of rows, made one after the other
-    std::uint64_t pool_bytes = 0;  ///< abuffer: [byte] for stored fragments
+    std::uint32_t bands = 0;       ///< abuffer, interleaved: of rows, made one after the other
+    std::uint64_t pool_bytes = 0;  ///< abuffer, interleaved: [byte] for stored fragments
     std::uint64_t bytes = 0;       ///< [byte] of all targets, textures and buffers of the method, the pool too
 };
 
-/// Declares one method's passes in a graph, and owns them.  Must not move once `declare` was called.
+/// What a method asks of the lighting pass: textures of the graph, null where it asks for nothing.
+struct LightingChanges {
+    GraphTexture nodes, looks, layer_light;  ///< one translucent surface a pixel, and the light on it
+    GraphTexture depth, output;              ///< what it reads instead of the frame's depth, and writes instead of hdr
+};
+
+/// Declares one method's passes in a graph, and owns them.  Must not move once `start` was called.
 template <rhi::Backend B>
 class Translucent {
 public:
@@ -41,8 +49,12 @@ public:
         GraphTexture hdr, depth;  ///< rgba16_float, read and written; d32_float, read
     };
     /// `scene` and `settings` must outlive the graph's use.
-    void declare(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs, const RenderSettings& settings,
-                 const Targets& targets);
+    void start(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs, const RenderSettings& settings,
+               const Targets& targets);
+    /// Between the G-buffer, which `gbuffer` becomes when passes are created, and the lighting pass; not called where
+    /// there is no lighting pass.
+    LightingChanges declare_before_lighting(std::span<const GraphTexture> colors, const GBufferTargets& gbuffer);
+    void declare_after_lighting();
 
     /// Counts the fragments of each pixel in a frame of its own, opened and closed here, and waits.  `[h, w, 1]`.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers(typename B::Device& device, Frame<B>& frame);
@@ -67,21 +79,27 @@ private:
     void declare_dual_peel();
     void declare_layer_count();
     void declare_abuffer();
+    void declare_interleaved_skyx_layers(std::span<const GraphTexture> colors, const GBufferTargets& gbuffer);
+    void declare_interleaved_skyx_merge();
+    void declare_interleaved_select();
+    void declare_interleaved_merge();
 
     [[nodiscard]] Result<Image<std::uint32_t>> read_numbers(typename B::Device& device, rhi::Texture texture,
                                                             rhi::Format format) const;
     [[nodiscard]] GraphTexture target(rhi::Format format, rhi::TextureUsage usage, const char* debug_name);
+    /// What a lighting pass may write.
+    [[nodiscard]] GraphTexture lit_target(const char* debug_name);
     [[nodiscard]] rhi::Texture operator[](GraphTexture t) const { return (*graph_)[t]; }
     [[nodiscard]] FragmentDesc fragments() const {
         return {.size = settings_->size,
                 .brdf = settings_->brdf,
-                .needs = needs_,
+                .needs = needs_.mask,
                 .culls = scene_->translucent_culls(),
                 .exact = settings_->exact};
     }
     /// Surfaces are lit where opaque ones are, but for scenes in which no light falls on any.
     [[nodiscard]] FragmentContent fragment_content() const {
-        const bool lit = (needs_ & PELLUCID_NEED_NORMALS) != 0 && settings_->shading == ShadingStage::compute;
+        const bool lit = needs_.has(PELLUCID_NEED_NORMALS) && settings_->shading == ShadingStage::compute;
         return lit ? FragmentContent::surfaces : FragmentContent::colors;
     }
     [[nodiscard]] std::uint32_t culls() const {
@@ -91,11 +109,12 @@ private:
     Graph<B>* graph_ = nullptr;
     const GpuScene<B>* scene_ = nullptr;
     const RenderSettings* settings_ = nullptr;
-    std::uint32_t needs_ = 0;
-    bool ran_ = false;  ///< there is anything to draw
-    std::vector<const char*> own_targets_;
+    SceneNeeds needs_;
+    std::vector<const char*> own_targets_;  ///< names of the method's textures in the graph
     GraphTexture peel_next_, peel_sum_;
     Targets targets_;
+    LightingChanges lighting_;
+    GraphTexture skyx_info_;
     typename B::Device* device_ = nullptr;  ///< once a pass was created
     std::uint32_t pipelines_ = 0;
     std::optional<SortedForwardPass<B>> sorted_;
@@ -104,6 +123,8 @@ private:
     std::optional<PeelPass<B>> peel_;
     std::optional<PeelSeedPass<B>> peel_seed_;
     std::optional<DualPeelPass<B>> dual_peel_;
+    std::optional<InterleavedSkyxPass<B>> interleaved_skyx_;
+    std::optional<InterleavedPass<B>> interleaved_;
 };
 
 }  // namespace pellucid

@@ -30,7 +30,7 @@ using Queries = Handle<struct QueriesTag>;    ///< a pool of queries of one kind
 inline constexpr std::size_t max_color_attachments = 8;
 inline constexpr std::size_t max_bindings = 24;     ///< in one group
 inline constexpr std::size_t max_push_bytes = 128;  ///< smallest limit of Vulkan, met on both backends
-inline constexpr std::size_t max_resources = 24;    ///< declared reads and writes of one pass
+inline constexpr std::size_t max_resources = 32;    ///< declared reads and writes of one pass
 
 // ---------------------------------------------------------------------------------------------------- device
 

@@ -1,7 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
-#define WINDOW 32
-#define SORT(keys) SORT32(keys, 0)
-#define DEEP true
+#define WINDOW 16
+#define SORT(keys) SORT16(keys, 0)
+#define BITONIC(keys) BITONIC16(keys, 0)
+#define ABUFFER_LIT
 #include "common/abuffer_resolve.glsl"

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Composites the layers of a pixel, exact in coverage, order, alpha and transmittance; the light on a layer comes from the
+// pixels around that lit the same surface, and where none of them fits, or where they disagree, it is computed here.
+#define VISIT_IN_LOOP
+#include "common/surface_node.glsl"
+#include "common/fragment_lists.glsl"
+#include "pellucid/gpu/interleaved.h"
+
+SPEC_CONSTANT(2, AUDIT, 0u);
+PASS_IMAGE(PELLUCID_LISTS_LOOKS, rgba32ui) readonly uimage2D looks;
+PASS_IMAGE(PELLUCID_INTERLEAVED_TARGET, rgba16f) image2D hdr;
+PASS_IMAGE(PELLUCID_INTERLEAVED_AUDIT, r32ui) writeonly uimage2D lit;
+PASS_TEXTURE(PELLUCID_INTERLEAVED_NODES) usampler2D chosen_nodes;
+PASS_TEXTURE(PELLUCID_INTERLEAVED_LOOKS) usampler2D chosen_looks;
+PASS_TEXTURE(PELLUCID_INTERLEAVED_LIGHT) sampler2D light;
+
+ivec2 pixel;
+vec3 composite;
+float through;
+uint lit_here;
+
+// Largest difference of the taps, relative to their mean, up to which the mean is believed.
+const float AGREEMENT = 0.06;
+const float ABSOLUTE_AGREEMENT = 0.002;
+
+// How well the surface that the pixel `q` lit stands for `s` at `p`: its instance, its distance from the plane of `s` in
+// pixels, its normal, its material.
+float likeness(ivec2 q, uvec4 look, Surface s, vec3 p, float pixel_size) {
+    uvec4 node = texelFetch(chosen_nodes, q, 0);
+    uvec4 other_look = texelFetch(chosen_looks, q, 0);
+    if (node.y == 0u || look_instance(other_look) != look_instance(look)) return 0.0;
+    Surface other = unpack_surface(node, other_look);
+    vec3 away = view_from_depth(vec2(q) + 0.5, node_depth(node)) - p;
+    float distance = abs(dot(s.normal, away)) / pixel_size;
+    float turn = max(dot(s.normal, other.normal), 0.0);
+    vec3 base = abs(other.base - s.base);
+    float look_difference = max(max(base.r, base.g), max(base.b, 4.0 * abs(other.roughness - s.roughness)));
+    return max(1.0 - distance, 0.0) * pow(turn, 32.0) * max(1.0 - 16.0 * look_difference, 0.0);
+}
+
+vec3 light_on(uvec4 node, uvec4 look, Surface s) {
+    if (s.unlit) return vec3(0.0);
+    if (texelFetch(chosen_nodes, pixel, 0).xy == node.xy) return texelFetch(light, pixel, 0).rgb;
+    vec3 p = view_from_depth(vec2(pixel) + 0.5, node_depth(node));
+    // What a step to the next pixel is at this distance.
+    float w = p.z * frame.clip_depth.z + frame.clip_depth.w;
+    float pixel_size = w * frame.pixel.y / frame.clip_scale.y;
+    vec3 sum = vec3(0.0);
+    vec3 least = vec3(1e30);
+    vec3 most = vec3(0.0);
+    vec2 center = vec2(0.0);
+    float total = 0.0;
+    for (int i = 0; i < 9; ++i) {
+        ivec2 step = ivec2(i % 3, i / 3) - 1;
+        ivec2 q = pixel + step;
+        if (step == ivec2(0) || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, imageSize(hdr)))) continue;
+        float weight = likeness(q, look, s, p, pixel_size) * (step.x == 0 || step.y == 0 ? 1.0 : 0.25);
+        if (weight < 1e-3) continue;
+        vec3 radiance = texelFetch(light, q, 0).rgb;
+        sum += radiance * weight;
+        center += vec2(step) * weight;
+        total += weight;
+        least = min(least, radiance);
+        most = max(most, radiance);
+    }
+    vec3 mean = sum / max(total, 1e-3);
+    vec3 spread = most - least;
+    // Taps on one side only extrapolate; taps that differ have an edge or a highlight between them.
+    bool believed = total > 0.3 && length(center) < 0.5 * total &&
+                    all(lessThanEqual(spread, AGREEMENT * mean + ABSOLUTE_AGREEMENT));
+    if (believed) return mean;
+    ++lit_here;
+    return light_surface(s, pixel, node_depth(node));
+}
+
+bool visit(uint rank, uint place) {
+    uvec4 node = imageLoad(nodes, node_texel(place));
+    uvec4 look = imageLoad(looks, node_texel(place));
+    Surface s = unpack_surface(node, look);
+    vec4 c = premultiply(s, s.emissive + light_on(node, look, s));
+    precise vec3 sum = composite + c.rgb * through;
+    precise float left = through * (1.0 - c.a);
+    composite = sum;
+    through = left;
+    return through > band.min_transmittance;
+}
+
+void main() {
+    if (!find_pixel(pixel)) return;
+    uint count = fragment_count(pixel);
+    composite = vec3(0.0);
+    through = 1.0;
+    lit_here = 1u;
+    walk(pixel, count);
+    if (count == 0u) return;
+    if (AUDIT != 0u) imageStore(lit, pixel, uvec4(lit_here));
+    vec4 behind = imageLoad(hdr, pixel);
+    precise vec3 sum = composite + behind.rgb * through;
+    imageStore(hdr, pixel, vec4(min(sum, vec3(65504.0)), behind.a));
+}

@@ -1,0 +1,5 @@
+#version 450
+#extension GL_GOOGLE_include_directive : require
+// SPDX-License-Identifier: MIT
+#define PELLUCID_EXACT 1
+#include "common/skyx_layer.glsl"
