@@ -15,17 +15,21 @@ struct Options {
     bool list_devices = false;
     std::string camera;  ///< index or name; empty: the scene's first, else one that frames the scene
     pellucid::RenderSettings settings;
+    bool chose_transparency = false;  ///< false: --transparency auto
+    bool reference = false;           ///< draw on the CPU, in double, instead of on a device
     std::string out;
     std::vector<std::pair<std::string, std::string>> aovs;  ///< name, file
     std::string stats;
     std::uint32_t frames = 1;
-    std::string compare;  ///< picture to compare with
+    std::string compare;  ///< file of a picture to compare with, or "reference": the one that the CPU draws
     std::string mask;     ///< picture of where to compare
     std::string heatmap;
     std::optional<double> error_budget;
     bool validate = false;
     bool gl_spirv = false;
     std::string pipeline_cache;
+
+    [[nodiscard]] bool against_reference() const { return compare == "reference"; }
 };
 
 /// Exit statuses of the command-line contract; `failed`: a driver, the validation layer or this program is at fault.
