@@ -99,7 +99,8 @@ struct Measure {
             PELLUCID_TRY(auto set, GBufferSet<B>::create(device, layout, size));
             sets.push_back(std::move(set));
         }
-        const RenderSettings render{.size = size, .default_light = false};
+        // Kept for a reader: normals are stored although no light falls on them.
+        const RenderSettings render{.size = size, .default_light = false, .keep_gbuffer = true};
         std::vector<GpuScene<B>> scenes;
         std::vector<GBufferPass<B>> passes;
         scenes.reserve(cases.size());  // works point into both

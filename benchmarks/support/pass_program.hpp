@@ -20,6 +20,33 @@ namespace pellucid::bench {
     return has_extension ? file.substr(0, dot) + "-" + suffix + file.substr(dot) : file + "-" + suffix;
 }
 
+/// `measure(std::type_identity<B>)` → Result<void> for each backend that `--backend` asks for.  One API's device must
+/// be gone before the other's is made, so `measure` must not keep it: on some drivers destroying a Vulkan device breaks
+/// OpenGL.  Where one API fails the other is still measured.  Errors: those of `measure`; invalid_argument.
+template <class Measure>
+[[nodiscard]] Result<void> on_each_backend(const Options& options, Measure measure) {
+    const std::string& backend = options.text("backend");
+    if (backend != "vulkan" && backend != "opengl" && backend != "both")
+        return Error{Errc::invalid_argument, "--backend is '" + backend + "' but must be vulkan, opengl or both"};
+    Result<void> status;
+    const auto keep = [&](const Result<void>& done) {
+        if (done || (!status && status.error().message == done.error().message)) return;
+        const std::string before = status ? "" : status.error().message + "; ";
+        status = Error{done.error().code, before + done.error().message};
+    };
+    if (backend != "opengl") keep(measure(std::type_identity<Vulkan>{}));
+    if (backend != "vulkan") keep(measure(std::type_identity<OpenGL>{}));
+    return status;
+}
+
+/// Prints the error, if there is one.
+/// \returns the exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
+[[nodiscard]] inline int exit_status(const char* stem, const Result<void>& done) {
+    if (done) return 0;
+    std::fprintf(stderr, "%s: %s\n", stem, done.error().message.c_str());
+    return done.error().code == Errc::invalid_argument ? 2 : done.error().code == Errc::no_device ? 4 : 1;
+}
+
 /// Opens a device, measures, and fills what of the table is the same for every benchmark.
 template <rhi::Backend B, class Measure>
 [[nodiscard]] Result<SpeedErrorTable> measure_on(const Options& options, Measure& measure) {
@@ -40,34 +67,20 @@ template <rhi::Backend B, class Measure>
 }
 
 /// `measure(std::type_identity<B>, B::Device&, const PassSettings&)` → Result<SpeedErrorTable>, once for each backend
-/// asked for.  Prints Markdown; writes JSON (an array of tables) and one SVG a backend.
-/// \returns the exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
+/// asked for.  Prints Markdown; writes JSON (an array of tables) and one SVG a backend.  Returns the exit status.
 template <class Measure>
 int run_pass_program(const char* stem, int argc, char** argv, Measure measure) {
     Options options = pass_options();
     const auto run = [&]() -> Result<void> {
         PELLUCID_CHECK(options.parse(argc, argv));
-        const std::string& backend = options.text("backend");
-        if (backend != "vulkan" && backend != "opengl" && backend != "both")
-            return Error{Errc::invalid_argument, "--backend is '" + backend + "' but must be vulkan, opengl or both"};
-        // One API's device is gone before the other's is made: on some drivers destroying a Vulkan device breaks
-        // OpenGL.  What one API measured is reported even where the other fails.
         std::vector<SpeedErrorTable> tables;
-        Result<void> status;
-        const auto keep = [&](Result<SpeedErrorTable> table) {
-            if (table) {
-                std::printf("%s\n", to_markdown(*table).c_str());
-                std::fflush(stdout);
-                tables.push_back(std::move(*table));
-            } else {
-                const std::string& message = table.error().message;
-                const bool told = !status && status.error().message == message;
-                const std::string before = status || told ? "" : status.error().message + "; ";
-                status = Error{table.error().code, before + message};
-            }
-        };
-        if (backend != "opengl") keep(measure_on<Vulkan>(options, measure));
-        if (backend != "vulkan") keep(measure_on<OpenGL>(options, measure));
+        const Result<void> status = on_each_backend(options, [&]<class B>(std::type_identity<B>) -> Result<void> {
+            PELLUCID_TRY(SpeedErrorTable table, measure_on<B>(options, measure));
+            std::printf("%s\n", to_markdown(table).c_str());
+            std::fflush(stdout);
+            tables.push_back(std::move(table));
+            return {};
+        });
         if (const std::string& file = options.text("json"); !file.empty() && !tables.empty()) {
             JsonWriter json;
             json.begin_array();
@@ -80,10 +93,7 @@ int run_pass_program(const char* stem, int argc, char** argv, Measure measure) {
                 PELLUCID_CHECK(write_file(with_suffix(file, table.device.backend), to_svg(table)));
         return status;
     };
-    const Result<void> done = run();
-    if (done) return 0;
-    std::fprintf(stderr, "%s: %s\n", stem, done.error().message.c_str());
-    return done.error().code == Errc::invalid_argument ? 2 : done.error().code == Errc::no_device ? 4 : 1;
+    return exit_status(stem, run());
 }
 
 /// [µs] for 10^6 pixels.

@@ -33,6 +33,29 @@ struct PassSettings {
                    {"quick"});
 }
 
+/// `--size`, or `automatic`.  Errors: invalid_argument.
+[[nodiscard]] inline Result<Extent2D> size_option(const Options& options, Extent2D automatic) {
+    const std::string& text = options.text("size");
+    if (text == "auto") return automatic;
+    unsigned width = 0, height = 0;
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || width < 8 || height < 8 || width > 16384 ||
+        height > 16384)
+        return Error{Errc::invalid_argument, "--size is '" + text + "' but must be WIDTHxHEIGHT, each from 8 to 16384"};
+    return Extent2D{width, height};
+}
+
+/// Whether `--clock` means timestamps.  Automatic: where the device is no processor and has them.
+/// Errors: invalid_argument.
+[[nodiscard]] inline Result<bool> timestamps_option(const Options& options, const rhi::DeviceInfo& device) {
+    const std::string& clock = options.text("clock");
+    if (clock != "auto" && clock != "timestamps" && clock != "wall")
+        return Error{Errc::invalid_argument, "--clock is '" + clock + "' but must be auto, timestamps or wall"};
+    if (clock == "timestamps" && device.timestamp_ns == 0)
+        return Error{Errc::invalid_argument, "--clock timestamps: " + device.name + " has none; use --clock wall"};
+    return clock == "auto" ? !device.software && device.timestamp_ns != 0 : clock == "timestamps";
+}
+
 /// The settings for one device.  GPUs: 1920x1080, 31 rounds; software: 256x256, 5 rounds; quick: 64x64, 3 rounds.
 /// Errors: invalid_argument.
 [[nodiscard]] inline Result<PassSettings> pass_settings(const Options& options, const rhi::DeviceInfo& device) {
@@ -45,24 +68,11 @@ struct PassSettings {
     out.repeats = out.software ? 1 : 4;
     out.copied = std::uint64_t{out.quick ? 1u : out.software ? 32u : 512u} << 20u;
 
-    if (const std::string& text = options.text("size"); text != "auto") {
-        unsigned width = 0, height = 0;
-        char rest = 0;
-        if (std::sscanf(text.c_str(), "%ux%u%c", &width, &height, &rest) != 2 || width < 8 || height < 8 ||
-            width > 16384 || height > 16384)
-            return Error{Errc::invalid_argument,
-                         "--size is '" + text + "' but must be WIDTHxHEIGHT, each from 8 to 16384"};
-        out.size = {width, height};
-    }
+    PELLUCID_TRY(out.size, size_option(options, out.size));
     if (options.text("rounds") != "auto") {
         PELLUCID_TRY(out.rounds, options.number("rounds", 1, 10000));
     }
-    const std::string& clock = options.text("clock");
-    if (clock != "auto" && clock != "timestamps" && clock != "wall")
-        return Error{Errc::invalid_argument, "--clock is '" + clock + "' but must be auto, timestamps or wall"};
-    if (clock == "timestamps" && device.timestamp_ns == 0)
-        return Error{Errc::invalid_argument, "--clock timestamps: " + device.name + " has none; use --clock wall"};
-    out.timestamps = clock == "auto" ? !out.software : clock == "timestamps";
+    PELLUCID_TRY(out.timestamps, timestamps_option(options, device));
     if (const std::string& text = options.text("bandwidth"); text != "measured") {
         double terabytes = 0;
         char rest = 0;
