@@ -40,6 +40,7 @@ constexpr Feature<VkPhysicalDeviceVulkan13Features> required_v13[] = {
     PELLUCID_FEATURE(VkPhysicalDeviceVulkan13Features, dynamicRendering),
     PELLUCID_FEATURE(VkPhysicalDeviceVulkan13Features, synchronization2),
     PELLUCID_FEATURE(VkPhysicalDeviceVulkan13Features, maintenance4),
+    PELLUCID_FEATURE(VkPhysicalDeviceVulkan13Features, robustImageAccess),  // beyond its edge an image reads as 0
 };
 constexpr Feature<VkPhysicalDeviceFeatures> optional_core[] = {
     PELLUCID_FEATURE(VkPhysicalDeviceFeatures, imageCubeArray),

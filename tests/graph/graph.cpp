@@ -204,10 +204,13 @@ TEST_CASE("executing a compiled graph allocates nothing", "[cpu]") {
             [](null::Device&) -> Result<void> { return {}; }, [&](null::Commands&) { ++recorded; });
     graph.keep(a);
     REQUIRE(graph.compile(device));
-    null::Commands& cmd = **device.begin_frame();
+    Frame<Null> frame(device);
+    REQUIRE(frame.open());
     const std::uint64_t before = test::allocations();
-    for (int frame = 0; frame < 10; ++frame) graph.execute(cmd, [](const char*, auto&& record) { record(); });
+    bool done = true;
+    for (int i = 0; i < 10; ++i) done = graph.execute(frame, [](const char*, auto&& record) { record(); }) && done;
     CHECK(test::allocations() == before);
+    CHECK(done);
     CHECK(recorded == 80);
 }
 

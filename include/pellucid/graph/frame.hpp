@@ -22,6 +22,8 @@ public:
         return opened(*commands_);
     }
     [[nodiscard]] typename B::Commands& commands() { return *commands_; }
+    /// Not before `open`, after `close`, and where an error came between two command lists.
+    [[nodiscard]] bool is_open() const noexcept { return commands_ != nullptr; }
     /// Submits what has been recorded, waits until it is done, so that the CPU can read what the GPU found out, and
     /// begins the next list.  Outside passes.  The CPU and the GPU run in turn from here on: a cost to be stated.
     [[nodiscard]] Result<void> flush() {
@@ -34,10 +36,16 @@ public:
     /// Submits the last command list.
     [[nodiscard]] Result<rhi::Ticket> close() {
         closing(*commands_);
+        commands_ = nullptr;
         rhi::Ticket ticket{};
         PELLUCID_TRY(ticket, device_->submit());
         closed(ticket);
         return ticket;
+    }
+    /// After an error: submits the command list that is open, if one is, so that the device can begin another one.
+    /// Outside passes.
+    void abandon() {
+        if (is_open()) (void)close();
     }
 
 protected:

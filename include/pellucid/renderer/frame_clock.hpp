@@ -20,7 +20,10 @@ public:
         return clock;
     }
 
-    void begin_frame() { earlier_.clear(); }
+    void begin_frame() {
+        earlier_.clear();
+        name_ = nullptr;  // a frame that failed may have left its scope open
+    }
     void open(typename B::Commands& cmd) {
         timer_->begin_frame(cmd);
         if (name_) index_ = timer_->begin(cmd, name_);

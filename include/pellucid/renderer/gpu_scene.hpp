@@ -46,7 +46,7 @@ public:
 
 private:
     struct Placed {
-        gpu::DrawRecord record;  ///< all but the matrices, which depend on the camera
+        gpu::DrawRecord record{};  ///< all but the matrices, which depend on the camera
         glm::dmat4 world_from_object{1.0};
         glm::dvec3 center{0, 0, 0};  ///< [m] world, of the bounds
         DrawItem item;

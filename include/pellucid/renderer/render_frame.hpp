@@ -18,7 +18,9 @@ public:
         clock_.begin_frame();
     }
     void begin_scope(const char* name) { clock_.begin_scope(this->commands(), name); }
-    void end_scope() { clock_.end_scope(this->commands()); }
+    void end_scope() {
+        if (this->is_open()) clock_.end_scope(this->commands());
+    }
 
 private:
     Result<void> opened(typename B::Commands& cmd) override {

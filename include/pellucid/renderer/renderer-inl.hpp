@@ -164,19 +164,24 @@ template <rhi::Backend B>
 Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
     camera_ = camera;
     RenderFrame<B> frame(*device_, *scene_, *clock_, camera, settings_);
-    PELLUCID_CHECK(frame.open());
-    PELLUCID_CHECK(graph_.execute(frame, [&](const char* name, auto&& record) {
-        frame.begin_scope(name);
-        record();
-        frame.end_scope();
-    }));
-    return frame.close();
+    Result<void> done = frame.open();
+    if (done)
+        done = graph_.execute(frame, [&](const char* name, auto&& record) {
+            frame.begin_scope(name);
+            record();
+            frame.end_scope();
+        });
+    if (done) return frame.close();
+    frame.abandon();
+    return done.error();
 }
 
 template <rhi::Backend B>
 Result<Image<std::uint32_t>> Renderer<B>::count_layers() {
     RenderFrame<B> frame(*device_, *scene_, *clock_, camera_, settings_);
-    return translucent_.count_layers(*device_, frame);
+    auto counts = translucent_.count_layers(*device_, frame);
+    if (!counts) frame.abandon();
+    return counts;
 }
 
 template <rhi::Backend B>
