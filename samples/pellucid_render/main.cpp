@@ -13,20 +13,7 @@ using namespace pellucid;
 
 int report(const Error& error) {
     std::fprintf(stderr, "pellucid-render: %s\n", error.message.c_str());
-    switch (error.code) {
-        case Errc::invalid_argument:
-            return static_cast<int>(Exit::usage);
-        case Errc::no_device:
-        case Errc::unsupported:
-            return static_cast<int>(Exit::no_device);
-        case Errc::device_lost:
-        case Errc::out_of_memory:
-            return static_cast<int>(Exit::device);
-        case Errc::internal:
-            return static_cast<int>(Exit::failed);
-        default:
-            return static_cast<int>(Exit::input);
-    }
+    return static_cast<int>(exit_status(error.code));
 }
 
 template <rhi::Backend... Bs>

@@ -59,12 +59,23 @@ void add_picture_options(CLI::App& app, Options& o, Texts& t) {
                  "lighting arithmetic with the same bits on both backends (about 10 % slower)");
 }
 
-/// The methods that `heeds` says yes to, in a row of words.
-template <class F>
-std::string methods(const char* joint, F&& heeds) {
+/// Options that some methods of transparency heed and others do not.
+struct Heeded {
+    const char* flag;
+    bool TransparencyTraits::*by;
+};
+constexpr Heeded heeded[] = {{"--layers", &TransparencyTraits::layers},
+                             {"--memory-budget", &TransparencyTraits::memory_budget},
+                             {"--min-transmittance", &TransparencyTraits::min_transmittance},
+                             {"--seed-composite", &TransparencyTraits::seed_composite},
+                             {"--skyx-alpha-gain", &TransparencyTraits::skyx_alpha_gain},
+                             {"--audit", &TransparencyTraits::audit}};
+
+/// The methods with this trait, or all, in a row of words.
+std::string methods(const char* joint, bool TransparencyTraits::*trait = nullptr) {
     std::vector<std::string> names;
     for (const TransparencyTraits& m : all_transparencies)
-        if (heeds(m)) names.push_back(m.name);
+        if (trait == nullptr || m.*trait) names.push_back(m.name);
     std::string text;
     for (std::size_t i = 0; i < names.size(); ++i)
         text += (i == 0 ? "" : i + 1 < names.size() ? ", " : std::string(" ") + joint + " ") + names[i];
@@ -75,23 +86,31 @@ void add_transparency_options(CLI::App& app, Options& o, Texts& t) {
     std::vector<std::string> names{"auto"};
     for (const TransparencyTraits& m : all_transparencies) names.push_back(m.name);
     app.add_option("--transparency", t.transparency,
-                   "auto, which is abuffer: exact for every scene; or " +
-                       methods("or", [](const TransparencyTraits&) { return true; }))
+                   std::string("auto, which is ") + name(o.settings.transparency) + ": exact for every scene; or " +
+                       methods("or"))
         ->check(CLI::IsMember(names));
-    app.add_option("--layers", t.layers, "N: at most so many layers of " + methods("and", [](auto& m) {
-                                             return m.layers;
-                                         }) + " (all there are; peel-seed: 6; a pass of dual-peel has two)");
+    using T = TransparencyTraits;
+    app.add_option("--layers", t.layers,
+                   "at most so many layers of " + methods("and", &T::layers) +
+                       " (all there are; peel-seed: 6; each of dual-peel is one from the front "
+                       "and one from the back)")
+        ->option_text("N");
     app.add_option("--memory-budget", t.memory_budget,
-                   "BYTES, or a multiple by K, M or G of 1024, for the fragments that " +
-                       methods("and", [](auto& m) { return m.memory_budget; }) + " store (what the device can bind)");
+                   "for the fragments that " + methods("and", &T::memory_budget) +
+                       " store: a number of bytes, or one with K, M or G (what the device can bind)")
+        ->option_text("BYTES");
     app.add_option("--min-transmittance", t.min_transmittance,
-                   "T in [0,1): " + methods("and", [](auto& m) { return m.min_transmittance; }) +
-                       " end a pixel where no more than T of the light gets through (0)");
+                   "in [0,1): " + methods("and", &T::min_transmittance) +
+                       " end a pixel where no more than this share of the light gets through (0)")
+        ->option_text("T");
     app.add_flag("--seed-composite", o.settings.seed_composite,
-                 "peel-seed: composite with the factors that its document has by mistake");
-    app.add_flag("--audit", o.settings.audit, "compare the fragments that " + methods("and", [](auto& m) {
-                                                  return m.audit;
-                                              }) + " composite with those that are counted (exit 1 where they differ)");
+                 methods("and", &T::seed_composite) + ": composite with the factors that its document has by mistake");
+    app.add_flag("--skyx-alpha-gain", o.settings.skyx_alpha_gain,
+                 methods("and", &T::skyx_alpha_gain) +
+                     ": the picture's alpha (which an .exr file has) grows by 1.1 a layer, as it once did");
+    app.add_flag("--audit", o.settings.audit,
+                 "compare the fragments that " + methods("and", &T::audit) +
+                     " composite with those that are counted (exit 1 where they differ)");
 }
 
 void add_output_options(CLI::App& app, Options& o, Texts& t) {
@@ -145,19 +164,9 @@ std::string read_texts(const CLI::App& app, const Texts& t, Options& o) {
 /// Options that this method of transparency does not heed.
 std::string check_method(const CLI::App& app, const Options& o) {
     const TransparencyTraits& method = traits(o.settings.transparency);
-    struct Heeded {
-        const char* flag;
-        bool (*heeds)(const TransparencyTraits&);
-    };
-    constexpr Heeded all[] = {
-        {"--layers", [](const TransparencyTraits& m) { return m.layers; }},
-        {"--memory-budget", [](const TransparencyTraits& m) { return m.memory_budget; }},
-        {"--min-transmittance", [](const TransparencyTraits& m) { return m.min_transmittance; }},
-        {"--seed-composite", [](const TransparencyTraits& m) { return m.method == Transparency::peel_seed; }},
-        {"--audit", [](const TransparencyTraits& m) { return m.audit; }}};
-    for (const Heeded& option : all)
-        if (app[option.flag]->count() > 0 && !option.heeds(method))
-            return std::string(option.flag) + " goes with --transparency " + methods("or", option.heeds) +
+    for (const Heeded& option : heeded)
+        if (app[option.flag]->count() > 0 && !(method.*option.by))
+            return std::string(option.flag) + " goes with --transparency " + methods("or", option.by) +
                    ", and means nothing to " + method.name + (o.chose_transparency ? "" : " (auto)");
     if (o.settings.audit && o.settings.min_transmittance > 0)
         return "--audit composites every fragment, so --min-transmittance ends no pixel: leave out one of them";
@@ -179,10 +188,13 @@ std::string check_reference(const CLI::App& app, const Options& o) {
                    "--reference composites every fragment, exactly, on the CPU: of --transparency it takes auto and "
                    "none, not ") +
                name(o.settings.transparency);
-    for (const char* flag : {"--aov", "--frames", "--validate", "--layers", "--memory-budget", "--min-transmittance",
-                             "--seed-composite", "--audit"})
+    std::vector<const char*> of_devices{"--backend",  "--device",         "--gbuffer",  "--lighting",
+                                        "--shading",  "--exact",          "--validate", "--aov",
+                                        "--gl-spirv", "--pipeline-cache", "--frames"};
+    for (const Heeded& option : heeded) of_devices.push_back(option.flag);
+    for (const char* flag : of_devices)
         if (app[flag]->count() > 0)
-            return std::string(flag) + " is about drawing on a device, and --reference draws on the CPU";
+            return std::string(flag) + " is about drawing on a device, and --reference draws on the CPU: leave it out";
     return {};
 }
 
@@ -220,6 +232,7 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     if (o.scene.empty() && !o.list_devices) return {o, usage("no scene is named (--help lists the options)")};
     if (const std::string wrong = check_reference(app, o); !wrong.empty()) return {o, usage(wrong)};
     if (const std::string wrong = check_method(app, o); !wrong.empty()) return {o, usage(wrong)};
+    if (o.gl_spirv && o.backend == "vulkan") return {o, usage("--gl-spirv goes with --backend opengl")};
     if ((!o.heatmap.empty() || o.error_budget || !o.mask.empty()) && o.compare.empty())
         return {o, usage("--heatmap, --mask and --error-budget go with --compare")};
     return {o, std::nullopt};

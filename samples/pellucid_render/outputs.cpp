@@ -102,6 +102,15 @@ ordered_json passes_of(const Report& report) {
     return passes;
 }
 
+ordered_json settings_of(const Report& report, const RenderSettings& s) {
+    ordered_json json{
+        {"transparency", report.translucency.method}, {"brdf", name(s.brdf)}, {"tonemap", name(s.tonemap)}};
+    if (report.device)
+        json.update(
+            {{"gbuffer", name(s.gbuffer)}, {"lighting", "loop"}, {"shading", name(s.shading)}, {"exact", s.exact}});
+    return json;
+}
+
 ordered_json stats_of(const Options& options, const Report& report) {
     const RenderSettings& s = options.settings;
     const rhi::DeviceInfo cpu{.backend = "reference", .name = "CPU", .driver = "none", .api = "none"};
@@ -111,14 +120,7 @@ ordered_json stats_of(const Options& options, const Report& report) {
                       {"driver", device.driver},
                       {"api", device.api},
                       {"size", {s.size.width, s.size.height}},
-                      {"settings",
-                       {{"transparency", report.translucency.method},
-                        {"gbuffer", name(s.gbuffer)},
-                        {"lighting", "loop"},
-                        {"shading", name(s.shading)},
-                        {"brdf", name(s.brdf)},
-                        {"tonemap", name(s.tonemap)},
-                        {"exact", s.exact}}},
+                      {"settings", settings_of(report, s)},
                       {"frames", options.frames},
                       {"frame_ms", summary(report.frame_ms)},
                       {"load_to_first_frame_ms", report.load_to_first_frame_ms},

@@ -52,7 +52,7 @@ pellucid::Result<void> draw_frames(typename B::Device& device, pellucid::Rendere
 }
 
 /// What the renderer tells about its last frame's transparency, and what the options ask about it.  `counts`: filled in
-/// where layers had to be counted, which takes a frame.
+/// where layers had to be counted, which takes a frame, and this device can count.
 template <pellucid::rhi::Backend B>
 pellucid::Result<void> ask_about_translucency(const Options& options, const pellucid::Scene& scene,
                                               const pellucid::Camera& camera, pellucid::Renderer<B>& renderer,
@@ -69,10 +69,10 @@ pellucid::Result<void> ask_about_translucency(const Options& options, const pell
     if (settings.audit && report.stats.translucency.ran) {
         PELLUCID_TRY(composited, renderer.read_composited());
     }
-    if (settings.audit || !options.stats.empty() || options.against_reference()) {
+    if (report.device->float32_blending && (settings.audit || !options.stats.empty() || options.against_reference())) {
         PELLUCID_TRY(counts, renderer.count_layers());
     }
-    if (!options.stats.empty()) out.layers = summarize_layers(counts);
+    if (!options.stats.empty() && !counts.empty()) out.layers = summarize_layers(counts);
     if (settings.audit) {
         PELLUCID_TRY(out.audit, measure::layer_difference(composited.empty() ? counts : composited, counts));
     }
@@ -90,8 +90,10 @@ pellucid::Result<void> compare_frame(const Options& options, const pellucid::Sce
         PELLUCID_TRY(picture, draw_reference(options, scene, camera, !target.mask));
         target.picture = std::move(picture.radiance);
         if (!target.mask) target.mask = std::move(picture.stable);
-        target.test_layers = &counts;
-        target.layers = &picture.layers;
+        if (!counts.empty()) {
+            target.test_layers = &counts;
+            target.layers = &picture.layers;
+        }
     }
     PELLUCID_TRY(report.comparison, compare(options, drawn, target));
     return {};

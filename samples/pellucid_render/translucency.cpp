@@ -93,7 +93,8 @@ ordered_json facts_of(const TranslucencyReport& report, const RenderSettings& se
         if (settings.max_layers > 0) out["max_layers"] = settings.max_layers;
         if (facts.method != Transparency::peel_seed) out["truncated"] = facts.truncated;
     }
-    if (facts.method == Transparency::peel_seed) out["composite_as_written"] = settings.seed_composite;
+    if (method.seed_composite) out["seed_composite"] = settings.seed_composite;
+    if (method.skyx_alpha_gain) out["skyx_alpha_gain"] = settings.skyx_alpha_gain;
     if (method.memory_budget) {
         out["bands"] = facts.bands;
         out["pool_bytes"] = facts.pool_bytes;

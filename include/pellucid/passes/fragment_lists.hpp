@@ -173,6 +173,7 @@ Result<bool> FragmentLists<B>::prepare(typename B::Device& device, std::span<con
     constexpr std::uint32_t width = 1u << PELLUCID_LISTS_WIDTH_BITS;
     std::uint64_t most = std::uint64_t{device.info().max_texture_size} * width;
     if (desc_.memory_budget != 0) most = std::min(most, desc_.memory_budget / fragment_bytes());
+    if (most > width) most -= most % width;  // an image has whole rows, and at least one
     PELLUCID_TRY(bands_, split_strips(strips, most, fragment_bytes()));
     std::uint32_t needed = 0;
     for (const StripBand& band : bands_) {

@@ -38,10 +38,10 @@ inline constexpr float default_ambient = 0.25f;
                                        ": choose another method or another device"};
     };
     constexpr std::uint32_t side = 1u << PELLUCID_LISTS_WIDTH_BITS;
-    if (method == Transparency::abuffer && device.max_texture_size < side)
+    if (traits(method).memory_budget && device.max_texture_size < side)  // it stores fragments
         return refuse("textures of " + std::to_string(side) + " texels a side",
                       "has at most " + std::to_string(device.max_texture_size));
-    if (any_order(method) && method != Transparency::peel_seed && !device.float32_blending)
+    if (traits(method).float32_blending && !device.float32_blending)
         return refuse("blending into 32-bit float targets", "has none");
     return {};
 }

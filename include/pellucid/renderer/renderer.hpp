@@ -56,7 +56,7 @@ public:
     [[nodiscard]] Result<rhi::Texels> read_gbuffer(std::size_t index);
 
     /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
-    /// own and waits.
+    /// own and waits.  `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
     /// `[h, w, 1]` fragments that the last frame composited in each pixel, with settings.audit; waits.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited() { return translucent_.read_composited(*device_); }

@@ -23,44 +23,58 @@ enum class Transparency : std::uint8_t {
     abuffer       ///< exact: every fragment stored, sorted and composited in compute, in bands where memory is short
 };
 
-/// What a method promises, and which settings it heeds: one line a method, in the order of the enumerators.
+/// What a method promises, what it needs of a device, and which settings it heeds: in the order of the enumerators.
+/// Every list of methods in a program, its help or a sentence is made from this one.
 struct TransparencyTraits {
     Transparency method = Transparency::none;
     const char* name = "";
     const char* loses = "";          ///< what may be missing from its picture or out of place; empty: nothing
+    bool float32_blending = false;   ///< needs a device that blends into 32-bit float targets
     bool layers = false;             ///< max_layers
     bool min_transmittance = false;  ///< min_transmittance
     bool memory_budget = false;      ///< memory_budget
     bool audit = false;              ///< audit
+    bool seed_composite = false;     ///< seed_composite
+    bool skyx_alpha_gain = false;    ///< skyx_alpha_gain
 };
 inline constexpr TransparencyTraits all_transparencies[] = {
     {.method = Transparency::none, .name = "none", .loses = "every translucent surface"},
     {.method = Transparency::sorted,
      .name = "sorted",
      .loses = "the order of surfaces that overlap each other, or themselves, in depth"},
-    {.method = Transparency::peel, .name = "peel", .layers = true, .min_transmittance = true, .audit = true},
+    {.method = Transparency::peel,
+     .name = "peel",
+     .float32_blending = true,
+     .layers = true,
+     .min_transmittance = true,
+     .audit = true},
     {.method = Transparency::peel_seed,
      .name = "peel-seed",
      .loses =
          "layers beyond their number, layers closer than 1e-4 in depth, all but one of equal depth, radiance above "
          "1, and what 8 bits cannot hold",
-     .layers = true},
+     .layers = true,
+     .seed_composite = true},
     {.method = Transparency::dual_peel,
      .name = "dual-peel",
      .loses = "all but one of a pixel's fragments of equal depth",
+     .float32_blending = true,
      .layers = true},
     {.method = Transparency::interleaved_skyx,
      .name = "interleaved-skyx",
      .loses =
          "opaque detail behind translucent surfaces, a pixel at silhouettes, all but one surface of an instance, all "
-         "but three layers, and their order"},
+         "but three layers, and their order",
+     .skyx_alpha_gain = true},
     {.method = Transparency::interleaved,
      .name = "interleaved",
      .loses = "light that changes within a pixel of a surface whose neighbours agree",
+     .float32_blending = true,
      .min_transmittance = true,
      .memory_budget = true},
     {.method = Transparency::abuffer,
      .name = "abuffer",
+     .float32_blending = true,
      .min_transmittance = true,
      .memory_budget = true,
      .audit = true}};
@@ -97,14 +111,15 @@ struct RenderSettings {
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve
     glm::vec3 background{0.05f, 0.05f, 0.08f};  ///< linear radiance where nothing is
     bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
-    std::uint32_t max_layers = 0;     ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
-    bool seed_composite = false;      ///< peel_seed: composite with the factors that its document has by mistake
-    bool skyx_alpha_gain = false;     ///< interleaved_skyx: alpha of the picture grows by 1.1 a layer, as it once did
-    float min_transmittance = 0;      ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
-    std::uint64_t memory_budget = 0;  ///< [byte] of an A-buffer's fragments; 0: what the device can bind
-    bool audit = false;               ///< keep, for each pixel, how many fragments were composited (tests)
-    bool exact = false;               ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
-    bool keep_gbuffer = false;        ///< the G-buffer may be read back after a frame (Renderer::read_*)
+    std::uint32_t max_layers = 0;  ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
+    bool seed_composite = false;   ///< peel_seed: composite with the factors that its document has by mistake
+    bool skyx_alpha_gain = false;  ///< interleaved_skyx: alpha of the picture grows by 1.1 a layer, as it once did
+    float min_transmittance = 0;   ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
+    std::uint64_t memory_budget =
+        0;                      ///< [byte] of stored fragments (at least 2^14 are made room for); 0: what can be bound
+    bool audit = false;         ///< keep, for each pixel, how many fragments were composited (tests)
+    bool exact = false;         ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
+    bool keep_gbuffer = false;  ///< the G-buffer may be read back after a frame (Renderer::read_*)
     bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 

@@ -350,6 +350,9 @@ Result<Image<std::uint32_t>> Translucent<B>::read_numbers(typename B::Device& de
 template <rhi::Backend B>
 Result<Image<std::uint32_t>> Translucent<B>::count_layers(typename B::Device& device, Frame<B>& frame) {
     if (scene_->translucent().empty()) return Image<std::uint32_t>(settings_->size.width, settings_->size.height, 1);
+    if (!device.info().float32_blending)
+        return Error{Errc::unsupported, "layers are counted by blending into a 32-bit float target, and " +
+                                            device.info().name + " cannot: there are no counts on this device"};
     if (!count_) {
         PELLUCID_TRY(count_, LayerCountPass<B>::create(device, fragments()));
     }
@@ -368,7 +371,7 @@ Result<Image<std::uint32_t>> Translucent<B>::read_composited(typename B::Device&
     if (settings_->audit && interleaved_) return read_numbers(device, interleaved_->lit(), rhi::Format::r32_uint);
     return Error{Errc::invalid_argument, std::string("nobody counts what the method '") +
                                              name(settings_->transparency) +
-                                             "' composites: set audit, and use peel or abuffer"};
+                                             "' composites: set audit, and use a method that heeds it"};
 }
 
 template <rhi::Backend B>
@@ -377,7 +380,7 @@ Result<double> Translucent<B>::read_transmittance_left(typename B::Device& devic
     if (!traits(settings_->transparency).min_transmittance)
         return Error{Errc::invalid_argument, std::string("there is no bound of what the method '") +
                                                  name(settings_->transparency) +
-                                                 "' leaves out; peel and abuffer have one"};
+                                                 "' leaves out; those that heed min_transmittance have one"};
     if (!needs_.translucent) return 0.0;
     if (!peel_ || (!peel_->truncated() && least == 0)) return least;
     rhi::Texels next, sum;

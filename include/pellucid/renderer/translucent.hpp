@@ -57,13 +57,15 @@ public:
     void declare_after_lighting();
 
     /// Counts the fragments of each pixel in a frame of its own, opened and closed here, and waits.  `[h, w, 1]`.
+    /// `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers(typename B::Device& device, Frame<B>& frame);
     /// What each pixel composited in the last frame; waits.  `invalid_argument` unless the method was audited.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited(typename B::Device& device) const;
 
     /// In [0,1]: the largest share of the light behind that gets through what the last frame composited, over the
     /// pixels where it may have left something out.  No pixel is off by more than this share of the largest radiance
-    /// behind. Waits.  `invalid_argument` for methods that have no such bound: all but peel and abuffer.
+    /// behind. Waits.  `invalid_argument` for methods that have no such bound: those that do not heed
+    /// min_transmittance.
     [[nodiscard]] Result<double> read_transmittance_left(typename B::Device& device) const;
 
     [[nodiscard]] std::uint32_t pipelines() const noexcept { return pipelines_; }  ///< built so far
