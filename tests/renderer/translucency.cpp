@@ -90,6 +90,7 @@ TEST_CASE("a device that cannot run a method is refused with what is needed and 
     for (const TransparencyTraits& t : all_transparencies) CHECK(check_device(t.method, info));
     info.max_texture_size = 8192;
     CHECK(check_device(Transparency::peel, info));
+    CHECK_FALSE(check_device(Transparency::interleaved, info));
     null::Device device;
     device.pretend(info);
     const auto small = Renderer<Null>::create(device, panes(1), {.size = {16, 16}});
@@ -106,7 +107,9 @@ TEST_CASE("a device that cannot run a method is refused with what is needed and 
     CHECK(dull.error().message ==
           "the method 'dual-peel' needs blending into 32-bit float targets, and null (null) has none: choose another "
           "method or another device");
-    for (const Transparency t : {Transparency::none, Transparency::sorted, Transparency::peel_seed})
+    CHECK_FALSE(check_device(Transparency::interleaved, info));
+    for (const Transparency t :
+         {Transparency::none, Transparency::sorted, Transparency::peel_seed, Transparency::interleaved_skyx})
         CHECK(check_device(t, info));
 }
 
