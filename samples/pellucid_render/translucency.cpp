@@ -103,7 +103,8 @@ ordered_json facts_of(const TranslucencyReport& report, const RenderSettings& se
     if (method.min_transmittance) {
         out["min_transmittance"] = settings.min_transmittance;
         out["transmittance_left"] = report.transmittance_left.value_or(0);
-        out["error_bound"] = error_bound(report);
+        const std::string bound = error_bound(report);
+        out["error_bound"] = bound.empty() ? ordered_json() : ordered_json(bound);
     }
     if (report.conflicts) out["conflicts"] = to_json(*report.conflicts);
     return out;

@@ -111,15 +111,14 @@ struct RenderSettings {
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve
     glm::vec3 background{0.05f, 0.05f, 0.08f};  ///< linear radiance where nothing is
     bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
-    std::uint32_t max_layers = 0;  ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
-    bool seed_composite = false;   ///< peel_seed: composite with the factors that its document has by mistake
-    bool skyx_alpha_gain = false;  ///< interleaved_skyx: alpha of the picture grows by 1.1 a layer, as it once did
-    float min_transmittance = 0;   ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
-    std::uint64_t memory_budget =
-        0;                      ///< [byte] of stored fragments (at least 2^14 are made room for); 0: what can be bound
-    bool audit = false;         ///< keep, for each pixel, how many fragments were composited (tests)
-    bool exact = false;         ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
-    bool keep_gbuffer = false;  ///< the G-buffer may be read back after a frame (Renderer::read_*)
+    std::uint32_t max_layers = 0;     ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
+    bool seed_composite = false;      ///< peel_seed: composite with the factors that its document has by mistake
+    bool skyx_alpha_gain = false;     ///< interleaved_skyx: alpha of the picture grows by 1.1 a layer, as it once did
+    float min_transmittance = 0;      ///< [0,1) exact methods end a pixel where less gets through; 0: nothing is lost
+    std::uint64_t memory_budget = 0;  ///< [byte] of stored fragments, in rows of 2^14; 0: what the device can bind
+    bool audit = false;               ///< keep, for each pixel, how many fragments were composited (tests)
+    bool exact = false;               ///< lighting arithmetic that gives the same bits on every API, about 10 % slower
+    bool keep_gbuffer = false;        ///< the G-buffer may be read back after a frame (Renderer::read_*)
     bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 
