@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <pellucid/passes/strip_bands.hpp>
 #include "support/catch.hpp"
+#include "support/devices.hpp"
 
 using namespace pellucid;
 
