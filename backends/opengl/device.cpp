@@ -63,6 +63,7 @@ rhi::DeviceInfo query_info() {
                     static_cast<unsigned>(gl_limit(GL_MINOR_VERSION)));
     for (const char* software : {"llvmpipe", "softpipe", "swrast"})
         info.software = info.software || info.name.find(software) != std::string::npos;
+    if (info.name.find("llvmpipe") != std::string::npos) info.max_loop_turns = rhi::llvmpipe_loop_turns;
     info.missing = missing_feature();
     info.max_texture_size = static_cast<std::uint32_t>(gl_limit(GL_MAX_TEXTURE_SIZE));
     info.max_array_layers = static_cast<std::uint32_t>(gl_limit(GL_MAX_ARRAY_TEXTURE_LAYERS));

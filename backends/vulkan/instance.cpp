@@ -146,6 +146,7 @@ Candidate describe(const InstanceTable& vk, VkPhysicalDevice physical) {
     c.info.name = basic.deviceName;
     c.info.api = version_name(basic.apiVersion);
     c.info.software = basic.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    if (c.info.name.find("llvmpipe") != std::string::npos) c.info.max_loop_turns = rhi::llvmpipe_loop_turns;
     c.info.max_texture_size = basic.limits.maxImageDimension2D;
     c.info.max_array_layers = basic.limits.maxImageArrayLayers;
     c.info.max_storage_buffer_bytes = basic.limits.maxStorageBufferRange;

@@ -42,6 +42,23 @@ bool find_pixel(out ivec2 at) {
 // Fragments of a pixel; beyond the picture an image reads as 0.
 uint fragment_count(ivec2 at) { return uint(imageLoad(counts, at).r); }
 
+#if defined(BITONIC)
+// Into `keys`, sorted, goes what is nearest of them and of a block of fragments that are not visited yet.
+void gather(inout Key keys[WINDOW], uint first, uint start, uint count, Key last) {
+    Key block[WINDOW];
+    for (int w = 0; w < WINDOW; ++w) {
+        block[w] = NOTHING;
+        if (start + uint(w) < count) block[w] = load_key(first, start + uint(w));
+        if (!in_front(last, block[w])) block[w] = NOTHING;  // visited
+    }
+    SORT(block)
+    // Of two sorted halves that meet at their far ends, the nearer of each pair.
+    for (int w = 0; w < WINDOW; ++w)
+        if (in_front(block[WINDOW - 1 - w], keys[w])) keys[w] = block[WINDOW - 1 - w];
+    BITONIC(keys)
+}
+#endif
+
 void walk(ivec2 at, uint count) {
     uint first = imageLoad(cursors, at).r - PELLUCID_LAYERS_GROUP * count;
     Key last = Key(2.0, 0, 0u);  // the farthest fragment visited
@@ -54,18 +71,10 @@ void walk(ivec2 at, uint count) {
         for (int w = 0; w < WINDOW; ++w) keys[w] = NOTHING;
         uint start = 0u;
         do {
-            Key block[WINDOW];
-            for (int w = 0; w < WINDOW; ++w) {
-                block[w] = NOTHING;
-                if (start + uint(w) < count) block[w] = load_key(first, start + uint(w));
-                if (!in_front(last, block[w])) block[w] = NOTHING;  // visited
-            }
-            SORT(block)
-            // The nearest of both: of two sorted halves that meet at their far ends, the nearer of each pair.
-            for (int w = 0; w < WINDOW; ++w)
-                if (in_front(block[WINDOW - 1 - w], keys[w])) keys[w] = block[WINDOW - 1 - w];
-            BITONIC(keys)
-            start += uint(WINDOW);
+            // Two blocks a turn: software drivers limit turns, see `walk_turns`.
+            gather(keys, first, start, count, last);
+            gather(keys, first, start + uint(WINDOW), count, last);
+            start += 2u * uint(WINDOW);
         } while (start < count);
 #else
         for (int w = 0; w < WINDOW; ++w) {

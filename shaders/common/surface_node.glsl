@@ -21,8 +21,9 @@ uvec4 pack_surface_node(Surface s, float depth, uint order) {
 uvec4 pack_surface_look(Surface s, uint instance) {
     vec3 base = clamp(s.base, 0.0, 1.0);
     vec3 emissive = round_to_half(min(s.emissive, vec3(65504.0)));
-    return uvec4(unorm16(base.r) | unorm16(base.g) << 16u, unorm16(base.b) | unorm16(s.alpha) << 16u,
-                 packHalf2x16(emissive.rg), half_bits(emissive.b) | instance << 16u);
+    uint alpha = alpha19(s.alpha);
+    return uvec4(unorm16(base.r) | unorm16(base.g) << 16u, unorm16(base.b) | (alpha >> 3u) << 16u,
+                 pack_halves(emissive, alpha, instance));
 }
 float node_depth(uvec4 node) { return uintBitsToFloat(node.x); }
 uint look_instance(uvec4 look) { return look.w >> 16u; }
@@ -30,14 +31,14 @@ uint look_instance(uvec4 look) { return look.w >> 16u; }
 Surface unpack_surface(uvec4 node, uvec4 look) {
     Surface s;
     s.base = vec3(from_unorm16(look.x & 0xFFFFu), from_unorm16(look.x >> 16u), from_unorm16(look.y & 0xFFFFu));
-    s.alpha = from_unorm16(look.y >> 16u);
+    s.alpha = from_alpha19(look.y >> 16u, look.zw);
     s.normal = octahedral_decode(node.z);
     s.roughness = from_unorm16(node.w & 0xFFFFu);
     precise float metallic = float(node.w >> 16u & 0xFFu) * (1.0 / 255.0);
     precise float occlusion = float(node.w >> 24u) * (1.0 / 255.0);
     s.metallic = metallic;
     s.occlusion = occlusion;
-    s.emissive = vec3(unpackHalf2x16(look.z), unpackHalf2x16(look.w).x);
+    s.emissive = unpack_halves(look.zw);
     s.unlit = (node.y & PELLUCID_NODE_UNLIT) != 0u;
     s.premultiplied = (node.y & PELLUCID_NODE_PREMULTIPLIED) != 0u;
     s.discarded = false;

@@ -68,11 +68,14 @@ Result<AbufferPass<B>> AbufferPass<B>::create(typename B::Device& device, const 
     AbufferPass pass;
     pass.desc_ = desc;
     pass.hdr_ = hdr;
-    PELLUCID_TRY(
-        pass.lists_,
-        FragmentLists<B>::create(
-            device, {.fragments = desc.fragments, .content = desc.content, .memory_budget = desc.memory_budget},
-            counts));
+    PELLUCID_TRY(pass.lists_,
+                 FragmentLists<B>::create(
+                     device,
+                     {.fragments = desc.fragments,
+                      .content = desc.content,
+                      .memory_budget = desc.memory_budget,
+                      .visit_turns = desc.content == FragmentContent::surfaces ? 1 + desc.fragments.lights : 0},
+                     counts));
     // A binding that is not used still wants an image.
     PELLUCID_OWN(pass.audit_, device,
                  device.make_texture({.size = desc.audit ? desc.fragments.size : Extent2D{1, 1},

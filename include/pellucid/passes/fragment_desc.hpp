@@ -13,6 +13,7 @@ struct FragmentDesc {
     Extent2D size = {};  ///< [texel] of the picture
     Brdf brdf = Brdf::gltf;
     std::uint32_t needs = PELLUCID_NEED_ALL;  ///< PELLUCID_NEED_* of the scene
+    std::uint32_t lights = 1;                 ///< of the scene
     std::uint32_t culls = 7;                  ///< bit (1 << Cull) for each way of culling in use
     bool exact = false;                       ///< the lighting arithmetic that gives the same bits on every API
 

@@ -14,7 +14,7 @@ namespace pellucid {
 
 /// What the lists hold of a fragment.
 enum class FragmentContent : std::uint8_t {
-    colors,   ///< shaded, 16 bytes: binary16 colour (relative error 2^-12), unorm16 alpha
+    colors,   ///< shaded, 16 bytes: binary16 colour (relative error 2^-12), alpha within 2^-20
     surfaces  ///< to be lit by whoever walks them, 32 bytes: normals within 0.0025°, the rest in 16 bits, metallic in 8
 };
 
@@ -22,7 +22,25 @@ struct FragmentListsDesc {
     FragmentDesc fragments = {};
     FragmentContent content = FragmentContent::colors;
     std::uint64_t memory_budget = 0;  ///< [byte] of stored fragments; 0: what the device can bind
+    std::uint32_t visit_turns = 0;    ///< turns of loops that visiting one fragment takes
 };
+
+/// Turns of its loops that a shader needs to walk `layers` fragments (shaders/common/fragment_lists.glsl).
+[[nodiscard]] constexpr std::uint64_t walk_turns(std::uint64_t layers, std::uint64_t visit_turns) {
+    constexpr std::uint64_t window = 16;
+    const std::uint64_t windows = (layers + window - 1) / window;
+    return windows * (1 + (windows + 1) / 2) + layers * visit_turns;
+}
+/// The most fragments of a pixel that can be walked in `turns`; 0 turns: no limit.
+[[nodiscard]] constexpr std::uint32_t deepest_walk(std::uint32_t turns, std::uint32_t visit_turns) {
+    std::uint32_t low = 0, high = 1u << 24u;  // walkable, not walkable: counts are exact up to 2^24
+    if (turns == 0) return high;
+    while (high - low > 1) {
+        const std::uint32_t middle = low + (high - low) / 2;
+        (walk_turns(middle, visit_turns) <= turns ? low : high) = middle;
+    }
+    return low;
+}
 
 /// Lists of exactly the size that LayerCountPass counted.  Where they exceed the budget the picture is made in bands of
 /// rows, one after the other; nothing is dropped.  Groups of neighbouring pixels lie side by side
@@ -36,7 +54,8 @@ public:
                                                       rhi::Texture counts);
 
     /// Once the counts are on the CPU: decides the bands and makes room.  `true`: the images are new, so groups made of
-    /// them must be made again.  Errors: those of `split_strips`, of memory.
+    /// them must be made again.  Errors: those of `split_strips`, of memory; `unsupported` where a pixel is deeper than
+    /// the device's shaders can walk.
     [[nodiscard]] Result<bool> prepare(typename B::Device& device, std::span<const gpu::LayerStrip> strips);
     [[nodiscard]] std::span<const StripBand> bands() const { return bands_; }
 
@@ -78,6 +97,7 @@ private:
         return {.first_strip = band.first, .tile_stride = tiles(), .min_transmittance = min_transmittance};
     }
     void place(typename B::Commands& cmd, const StripBand& band) const;
+    [[nodiscard]] Result<void> check_depth(const rhi::DeviceInfo& info, std::span<const gpu::LayerStrip> strips) const;
 
     FragmentListsDesc desc_;
     rhi::Texture counts_ = {};
@@ -175,6 +195,7 @@ Result<bool> FragmentLists<B>::prepare(typename B::Device& device, std::span<con
     if (desc_.memory_budget != 0) most = std::min(most, desc_.memory_budget / fragment_bytes());
     if (most > width) most -= most % width;  // an image has whole rows, and at least one
     PELLUCID_TRY(bands_, split_strips(strips, most, fragment_bytes()));
+    PELLUCID_CHECK(check_depth(device.info(), strips));
     std::uint32_t needed = 0;
     for (const StripBand& band : bands_) {
         std::uint32_t base = 0;
@@ -213,6 +234,21 @@ Result<bool> FragmentLists<B>::prepare(typename B::Device& device, std::span<con
     if (looks_) fill.bindings.push_back({.binding = PELLUCID_LISTS_LOOKS, .texture = looks_});
     PELLUCID_OWN(fill_group_, device, device.make_group(fill));
     return true;
+}
+
+template <rhi::Backend B>
+Result<void> FragmentLists<B>::check_depth(const rhi::DeviceInfo& info, std::span<const gpu::LayerStrip> strips) const {
+    const std::uint32_t most = deepest_walk(info.max_loop_turns, desc_.visit_turns);
+    for (std::size_t i = 0; i < strips.size(); ++i)
+        if (strips[i].deepest > most)
+            return Error{Errc::unsupported, "a pixel of rows " + std::to_string(i * PELLUCID_LAYERS_TILE) + " to " +
+                                                std::to_string((i + 1) * PELLUCID_LAYERS_TILE - 1) + " has " +
+                                                std::to_string(strips[i].deepest) + " translucent fragments, and " +
+                                                info.name + " ends shaders after " +
+                                                std::to_string(info.max_loop_turns) +
+                                                " turns of their loops, which sort " + std::to_string(most) +
+                                                ": use the method 'peel', or another device"};
+    return {};
 }
 
 template <rhi::Backend B>

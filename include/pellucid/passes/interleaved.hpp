@@ -95,7 +95,8 @@ Result<InterleavedPass<B>> InterleavedPass<B>::create(typename B::Device& device
     PELLUCID_TRY(pass.lists_, FragmentLists<B>::create(device,
                                                        {.fragments = desc.fragments,
                                                         .content = FragmentContent::surfaces,
-                                                        .memory_budget = desc.memory_budget},
+                                                        .memory_budget = desc.memory_budget,
+                                                        .visit_turns = 1 + 9 + desc.fragments.lights},
                                                        counts));
     // A binding that is not used still wants an image.
     PELLUCID_OWN(pass.audit_, device,

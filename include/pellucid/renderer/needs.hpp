@@ -13,6 +13,7 @@ namespace pellucid {
 
 struct SceneNeeds {
     std::uint32_t mask = 0;        ///< PELLUCID_NEED_* of gpu/scene.h
+    std::uint32_t lights = 0;      ///< that shine, the default sun among them
     bool opaque = false;           ///< any opaque or masked instance: a G-buffer and a lighting pass
     bool translucent = false;      ///< any blended instance that is to be drawn
     bool emissive_target = false;  ///< the G-buffer stores emitted radiance
@@ -81,7 +82,11 @@ inline constexpr float default_ambient = 0.25f;
         mark(PELLUCID_NEED_POINTS, light.kind == LightKind::point);
         mark(PELLUCID_NEED_SPOTS, light.kind == LightKind::spot);
     }
-    if (scene.lights.empty() && settings.default_light) needs.mask |= PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT;
+    needs.lights = static_cast<std::uint32_t>(scene.lights.size());
+    if (scene.lights.empty() && settings.default_light) {
+        needs.mask |= PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT;
+        needs.lights = 1;
+    }
     constexpr std::uint32_t lights = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS;
     mark(PELLUCID_NEED_NORMALS, (lit && needs.has(lights)) || (needs.opaque && settings.keep_gbuffer));
     if (settings.every_need) {

@@ -96,6 +96,7 @@ private:
         return {.size = settings_->size,
                 .brdf = settings_->brdf,
                 .needs = needs_.mask,
+                .lights = needs_.lights,
                 .culls = scene_->translucent_culls(),
                 .exact = settings_->exact};
     }

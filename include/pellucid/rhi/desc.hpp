@@ -55,11 +55,14 @@ struct DeviceInfo {
     std::uint32_t max_texture_size = 0;  ///< [texel] 2D width and height
     std::uint32_t max_array_layers = 0;
     std::uint64_t max_storage_buffer_bytes = 0;
-    bool float32_blending = false;  ///< 32-bit float colour targets can be blended into
-    bool int64_atomics = false;     ///< tier T2
-    bool pixel_ordering = false;    ///< tier T3: fragment shader interlock
-    double timestamp_ns = 0;        ///< [ns] one timestamp tick; 0: no timestamps
+    bool float32_blending = false;     ///< 32-bit float colour targets can be blended into
+    bool int64_atomics = false;        ///< tier T2
+    bool pixel_ordering = false;       ///< tier T3: fragment shader interlock
+    double timestamp_ns = 0;           ///< [ns] one timestamp tick; 0: no timestamps
+    std::uint32_t max_loop_turns = 0;  ///< after so many of all loops a shader is ended, silently; 0: never
 };
+/// `DeviceInfo::max_loop_turns` of Mesa's CPU drivers, llvmpipe and lavapipe (LP_MAX_TGSI_LOOP_ITERATIONS).
+inline constexpr std::uint32_t llvmpipe_loop_turns = 65535;
 
 // ---------------------------------------------------------------------------------------------------- memory
 
