@@ -19,11 +19,12 @@ using namespace pellucid;
 TEST_CASE("frames of the demo scene keep every rule of the RHI", "[cpu]") {
     test::Log log;  // a violation fails the test
     const Scene scene = make_demo_scene();
-    for (const auto transparency : {Transparency::none, Transparency::sorted}) {
+    for (const TransparencyTraits& method : all_transparencies) {
+        INFO(method.name);
         auto device = test::must(Validated<Null>::create(log.desc()));
         {
             auto renderer = test::must(
-                Renderer<Validated<Null>>::create(*device, scene, {.size = {64, 36}, .transparency = transparency}));
+                Renderer<Validated<Null>>::create(*device, scene, {.size = {64, 36}, .transparency = method.method}));
             for (int frame = 0; frame < 3; ++frame) test::must(renderer->render(scene.cameras.front()));
             (void)test::must(renderer->read_display());
         }

@@ -23,19 +23,19 @@ const Known unlit[] = {{"S1_random_quads", {0.10196078f, 0.12156863f, 0.16078431
                        {"S3_linked_chain", {0.25098039f, 0.25882353f, 0.29803922f}}};
 
 /// What one frame leaves: radiance, display codes and depth (nothing opaque: no depth).
-struct Frame {
+struct Drawn {
     ImageF hdr;
     Image8 display;
     std::vector<std::byte> depth;
 };
 
 template <rhi::Backend B>
-Frame draw(typename B::Device& device, const Scene& scene, RenderSettings settings) {
+Drawn draw(typename B::Device& device, const Scene& scene, RenderSettings settings) {
     settings.keep_gbuffer = true;
     auto renderer = test::must(Renderer<B>::create(device, scene, settings));
     const Camera camera = scene.cameras.empty() ? frame_scene(scene, settings.size) : scene.cameras.front();
     test::must(renderer->render(camera));
-    Frame frame{test::must(renderer->read_hdr()), test::must(renderer->read_display()), {}};
+    Drawn frame{test::must(renderer->read_hdr()), test::must(renderer->read_display()), {}};
     if (renderer->needs().opaque) frame.depth = test::must(renderer->read_gbuffer(Renderer<B>::depth_index)).bytes;
     return frame;
 }
@@ -51,7 +51,7 @@ ImageF without_alpha(const ImageF& image) {
     return out;
 }
 
-measure::ImageError error_of(const Frame& frame, const std::filesystem::path& folder, const Known& known) {
+measure::ImageError error_of(const Drawn& frame, const std::filesystem::path& folder, const Known& known) {
     const std::string base = (folder / known.name).string();
     const Image8 stable = test::must(read_pgm(base + ".stable.pgm"));
     return test::must(measure::image_error(without_alpha(frame.hdr), test::must(read_pfm(base + ".reference.pfm")),
@@ -127,7 +127,7 @@ TEST_CASE("scenes: OpenGL draws the same bits from SPIR-V as from text", "[gpu]"
             settings.gbuffer = layout;
             settings.shading = stage;
             settings.exact = true;
-            const Frame a = draw<OpenGL>(*text, scene, settings), b = draw<OpenGL>(*spirv, scene, settings);
+            const Drawn a = draw<OpenGL>(*text, scene, settings), b = draw<OpenGL>(*spirv, scene, settings);
             INFO(name(layout) << " " << name(stage));
             CHECK(a.depth == b.depth);
             CHECK(a.hdr.data == b.hdr.data);
@@ -141,17 +141,17 @@ namespace {
 
 void compare_backends(Vulkan::Device& vulkan, OpenGL::Device& opengl, const Scene& scene, RenderSettings settings) {
     settings.exact = true;
-    const Frame a = draw<Vulkan>(vulkan, scene, settings), b = draw<OpenGL>(opengl, scene, settings);
+    const Drawn a = draw<Vulkan>(vulkan, scene, settings), b = draw<OpenGL>(opengl, scene, settings);
     CHECK(a.depth == b.depth);
     const auto exact = test::must(measure::image_error(a.hdr, b.hdr));
     CHECK(exact.different_pixels == 0);
     CHECK(exact.nonfinite == 0);
-    const Frame again = draw<Vulkan>(vulkan, scene, settings), gl_again = draw<OpenGL>(opengl, scene, settings);
+    const Drawn again = draw<Vulkan>(vulkan, scene, settings), gl_again = draw<OpenGL>(opengl, scene, settings);
     CHECK(a.hdr.data == again.hdr.data);
     CHECK(b.hdr.data == gl_again.hdr.data);
 
     settings.exact = false;
-    const Frame c = draw<Vulkan>(vulkan, scene, settings), d = draw<OpenGL>(opengl, scene, settings);
+    const Drawn c = draw<Vulkan>(vulkan, scene, settings), d = draw<OpenGL>(opengl, scene, settings);
     CHECK(c.depth == d.depth);
     CHECK(c.depth == a.depth);
     CHECK(test::must(measure::image_error(c.display, d.display)).max <= 1);

@@ -37,6 +37,14 @@ public:
     [[nodiscard]] LayerTotals totals() const;
     /// r32_float `[h, w]`: the fragments of each pixel; storage and copy_source.
     [[nodiscard]] rhi::Texture counts() const { return counts_; }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
+    template <class F>
+    void each_resource(F&& visit) const {
+        visit("layer_count.counts", std::uint64_t{4} * desc_.size.width * desc_.size.height);
+        visit("layer_count.strips", strips_.size_bytes());
+        visit("layer_count.tiles", tile_depths_.size_bytes());
+        visit("layer_count.readback", strips_.size_bytes() + tile_depths_.size_bytes());
+    }
 
 private:
     rhi::Unique<typename B::Device, rhi::Texture> counts_;
