@@ -68,6 +68,7 @@ rhi::DeviceInfo query_info() {
     info.max_texture_size = static_cast<std::uint32_t>(gl_limit(GL_MAX_TEXTURE_SIZE));
     info.max_array_layers = static_cast<std::uint32_t>(gl_limit(GL_MAX_ARRAY_TEXTURE_LAYERS));
     info.max_storage_buffer_bytes = gl_limit(GL_MAX_SHADER_STORAGE_BLOCK_SIZE);
+    info.float32_blending = true;  // of every OpenGL 4.5
     info.int64_atomics = has_extension("GL_NV_shader_atomic_int64");
     info.pixel_ordering = has_extension("GL_ARB_fragment_shader_interlock");
     GLint bits = 0;

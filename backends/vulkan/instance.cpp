@@ -170,6 +170,13 @@ Candidate describe(const InstanceTable& vk, VkPhysicalDevice physical) {
     had.chain(c.interlock);
     vk.GetPhysicalDeviceFeatures2(physical, &had.core);
     c.info.missing = choose_features(had, wanted);
+    c.info.float32_blending = true;
+    for (const VkFormat format : {VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT}) {
+        VkFormatProperties can = {};
+        vk.GetPhysicalDeviceFormatProperties(physical, format, &can);
+        if (!(can.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT))
+            c.info.float32_blending = false;
+    }
     c.info.int64_atomics = had.core.features.shaderInt64 && had.v12.shaderBufferInt64Atomics;
     c.info.pixel_ordering = c.interlock && had.interlock.fragmentShaderPixelInterlock;
     c.interlock = c.info.pixel_ordering;

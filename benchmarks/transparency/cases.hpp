@@ -4,7 +4,6 @@
 /// What is drawn and how: the methods, and the scenes by name or by file.
 #include <cstdlib>
 #include <filesystem>
-#include <pellucid/gpu/fragment_lists.h>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/settings.hpp>
 #include <pellucid/scene/demo_scene.hpp>
@@ -49,11 +48,6 @@ struct Case {
     }
     [[nodiscard]] bool exact(const Method& method) const {
         return method.exact == Exact::everywhere || (method.exact == Exact::unlit_scenes && !lit);
-    }
-    /// [byte] that a method holds for each translucent fragment, and that the renderer does not report.
-    [[nodiscard]] std::uint64_t fragment_bytes(Transparency method) const {
-        if (method == Transparency::interleaved) return 2 * PELLUCID_LISTS_TEXEL_BYTES;
-        return method == Transparency::abuffer ? (lit ? 2 : 1) * PELLUCID_LISTS_TEXEL_BYTES : 0;
     }
 };
 

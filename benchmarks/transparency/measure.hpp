@@ -30,10 +30,10 @@ namespace detail {
 
 /// Largest error that an exact method may add to that of the opaque surfaces, as a share of max(1, radiance):
 ///   2^-10: the target is binary16, and writing the composite loses up to one unit;
-///   2^-11: an A-buffer stores colours as binary16, rounded to nearest;  layers · 2^-17: and alpha in 16 bits;
+///   2^-11: an A-buffer stores colours as binary16, rounded to nearest;  layers · 2^-20: and alpha in 19 bits;
 ///   2e-3 for lit surfaces: what arithmetic in single precision changes where highlights are sharp (tests/renderer).
 [[nodiscard]] inline double exact_bound(const Case& c, std::uint32_t layers) {
-    return 0x1p-10 + 0x1p-11 + layers * 0x1p-17 + (c.lit ? 2e-3 : 0);
+    return 0x1p-10 + 0x1p-11 + layers * 0x1p-20 + (c.lit ? 2e-3 : 0);
 }
 
 /// How much an exact method adds to the error that the opaque surfaces already have, at the worst stable pixel, as a
@@ -229,7 +229,7 @@ private:
         PELLUCID_CHECK(entry.time(device_, case_.camera, false, false));
         PELLUCID_CHECK(entry.read());
         const RenderStats stats = entry.renderer->stats();
-        entry.row.bytes = stats.bytes + case_.fragment_bytes(method.value) * truth_.fragments;
+        entry.row.bytes = stats.bytes;
         if (!contenders_.empty()) entry.row.own_bytes = entry.row.bytes - contenders_.front().row.bytes;
         entry.row.draws = stats.draws;
         out_.triangles = stats.triangles;

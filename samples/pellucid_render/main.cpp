@@ -2,6 +2,7 @@
 // pellucid-render: the command-line tool.  DESIGN.md has its contract.
 #include "options.hpp"
 #include "outputs.hpp"
+#include "reference.hpp"
 #include "run.hpp"
 #include <pellucid/pellucid.hpp>
 #include <cstdio>
@@ -12,20 +13,7 @@ using namespace pellucid;
 
 int report(const Error& error) {
     std::fprintf(stderr, "pellucid-render: %s\n", error.message.c_str());
-    switch (error.code) {
-        case Errc::invalid_argument:
-            return static_cast<int>(Exit::usage);
-        case Errc::no_device:
-        case Errc::unsupported:
-            return static_cast<int>(Exit::no_device);
-        case Errc::device_lost:
-        case Errc::out_of_memory:
-            return static_cast<int>(Exit::device);
-        case Errc::internal:
-            return static_cast<int>(Exit::failed);
-        default:
-            return static_cast<int>(Exit::input);
-    }
+    return static_cast<int>(exit_status(error.code));
 }
 
 template <rhi::Backend... Bs>
@@ -49,7 +37,7 @@ int main(int argc, char** argv) {
         list_devices(Backends{});
         return static_cast<int>(Exit::done);
     }
-    for (const std::string& file : output_files(options))
+    for (const OutputFile& file : output_files(options))
         if (const Result<void> writable = check_writable(file); !writable) {
             report(writable.error());
             return static_cast<int>(Exit::usage);
@@ -58,9 +46,16 @@ int main(int argc, char** argv) {
     if (!scene) return report(scene.error());
     const Result<Camera> camera = choose_camera(*scene, options);
     if (!camera) return report(camera.error());
-    const Result<Result<int>> status = rhi::with_backend(
-        Backends{}, options.backend,
-        [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> { return run<B>(options, *scene, *camera); });
+    const Result<std::optional<Target>> target = read_target(options);
+    if (!target) return report(target.error());
+    if (options.reference) {
+        const Result<int> status = run_reference(options, *scene, *camera, *target);
+        return status ? *status : report(status.error());
+    }
+    const Result<Result<int>> status =
+        rhi::with_backend(Backends{}, options.backend, [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> {
+            return run<B>(options, *scene, *camera, *target);
+        });
     if (!status) return report(status.error());
     return *status ? **status : report(status->error());
 }

@@ -6,11 +6,13 @@
 #include "compare.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
+#include "reference.hpp"
 #include <pellucid/measure/statistics.hpp>
 #include <pellucid/renderer/renderer.hpp>
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <utility>
 
 /// Counts driver and validation messages, and passes them on to stderr.
 struct MessageCount {
@@ -49,13 +51,62 @@ pellucid::Result<void> draw_frames(typename B::Device& device, pellucid::Rendere
     return {};
 }
 
+/// What the renderer tells about its last frame's transparency, and what the options ask about it.  `counts`: filled in
+/// where layers had to be counted, which takes a frame, and this device can count.
+template <pellucid::rhi::Backend B>
+pellucid::Result<void> ask_about_translucency(const Options& options, const pellucid::Scene& scene,
+                                              const pellucid::Camera& camera, pellucid::Renderer<B>& renderer,
+                                              Report& report, pellucid::measure::LayerCounts& counts) {
+    using namespace pellucid;
+    const RenderSettings& settings = options.settings;
+    TranslucencyReport& out = report.translucency;
+    out = report_translucency(options, scene, camera, report.stats.translucency);
+    const bool left_out = report.stats.translucency.truncated || settings.min_transmittance > 0;
+    if (left_out && traits(settings.transparency).min_transmittance) {
+        PELLUCID_TRY(out.transmittance_left, renderer.read_transmittance_left());
+    }
+    measure::LayerCounts composited;
+    if (settings.audit && report.stats.translucency.ran) {
+        PELLUCID_TRY(composited, renderer.read_composited());
+    }
+    if (report.device->float32_blending && (settings.audit || !options.stats.empty() || options.against_reference())) {
+        PELLUCID_TRY(counts, renderer.count_layers());
+    }
+    if (!options.stats.empty() && !counts.empty()) out.layers = summarize_layers(counts);
+    if (settings.audit) {
+        PELLUCID_TRY(out.audit, measure::layer_difference(composited.empty() ? counts : composited, counts));
+    }
+    return {};
+}
+
+/// --compare: with a file, or with what the reference renderer draws.
+template <pellucid::rhi::Backend B>
+pellucid::Result<void> compare_frame(const Options& options, const pellucid::Scene& scene,
+                                     const pellucid::Camera& camera, const Drawn& drawn,
+                                     const pellucid::measure::LayerCounts& counts, Target target, Report& report) {
+    using namespace pellucid;
+    reference::Picture picture;
+    if (options.against_reference()) {
+        PELLUCID_TRY(picture, draw_reference(options, scene, camera, !target.mask));
+        target.picture = std::move(picture.radiance);
+        if (!target.mask) target.mask = std::move(picture.stable);
+        if (!counts.empty()) {
+            target.test_layers = &counts;
+            target.layers = &picture.layers;
+        }
+    }
+    PELLUCID_TRY(report.comparison, compare(options, drawn, target));
+    return {};
+}
+
 /// \returns the exit status of a run that worked.
 template <pellucid::rhi::Backend B>
-pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, const pellucid::Camera& camera) {
+pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, const pellucid::Camera& camera,
+                          const std::optional<Target>& target) {
     using namespace pellucid;
     MessageCount messages;
     Report report;
-    bool over_budget = false;
+    int status = 0;
     {
         const auto start = std::chrono::steady_clock::now();
         std::unique_ptr<typename B::Device> device;
@@ -70,28 +121,24 @@ pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, 
         report.load_to_first_frame_ms = milliseconds_since(start);
         PELLUCID_CHECK(draw_frames<B>(*device, *renderer, camera, options, report));
         report.stats = renderer->stats();
-        for (const std::string& warning : report.stats.warnings)
-            std::fprintf(stderr, "pellucid-render: warning: %s\n", warning.c_str());
-        ImageF linear;
-        Image8 display;
-        PELLUCID_TRY(linear, renderer->read_hdr());
-        PELLUCID_TRY(display, renderer->read_display());
-        if (!options.out.empty()) PELLUCID_CHECK(write_picture(options.out, linear, display));
+        Drawn drawn;
+        PELLUCID_TRY(drawn.linear, renderer->read_hdr());
+        PELLUCID_TRY(drawn.display, renderer->read_display());
+        std::vector<Channel> channels;
         for (const auto& [name, file] : options.aovs) {
-            ImageF values;
-            PELLUCID_TRY(values, read_aov<B>(*renderer, camera, name));
-            PELLUCID_CHECK(write_values(file, values));
+            PELLUCID_TRY(ImageF values, read_aov<B>(*renderer, camera, name));
+            channels.push_back({file, std::move(values)});
         }
-        if (!options.compare.empty()) {
-            PELLUCID_TRY(report.comparison, compare(options, linear, display));
-            over_budget = options.error_budget && !(report.comparison->rmse <= *options.error_budget);
-        }
-        if (!options.stats.empty()) PELLUCID_CHECK(write_stats(options.stats, options, report));
-        std::printf("%s on %s: %ux%u, %u draws, %.2f ms a frame%s%s\n", B::name, device->info().name.c_str(),
-                    options.settings.size.width, options.settings.size.height, report.stats.draws,
-                    report.frame_ms.median, options.out.empty() ? "" : ", ", options.out.c_str());
+        measure::LayerCounts counts;
+        PELLUCID_CHECK(ask_about_translucency<B>(options, scene, camera, *renderer, report, counts));
+        if (target) PELLUCID_CHECK(compare_frame<B>(options, scene, camera, drawn, counts, *target, report));
+        char text[320];
+        std::snprintf(text, sizeof text, "%s on %s: %ux%u, %u draws, transparency %s, %.2f ms a frame", B::name,
+                      device->info().name.c_str(), options.settings.size.width, options.settings.size.height,
+                      report.stats.draws, name(options.settings.transparency), report.frame_ms.median);
+        PELLUCID_TRY(status, finish(options, drawn, channels, report, text));
     }
     if (options.validate && messages.errors != 0)
         return Error{Errc::internal, std::to_string(messages.errors) + " validation messages"};
-    return static_cast<int>(over_budget ? Exit::error_budget : Exit::done);
+    return status;
 }

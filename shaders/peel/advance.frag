@@ -1,8 +1,8 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 // SPDX-License-Identifier: MIT
-// Makes the nearest depth found the layer that the next passes test against.  Where a pixel is done, depth 0: no fragment
-// is behind it, so the depth test ends them all before they are shaded.
+// Makes the nearest depth found the layer that the next passes test against.  Where a pixel is done depth stays 0: no
+// fragment is behind it, so the depth test ends them all before they are shaded.  The others are counted.
 #include "common/prelude.glsl"
 #include "pellucid/gpu/peel.h"
 
@@ -15,5 +15,6 @@ void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
     float depth = texelFetch(next, at, 0).r;
     bool done = depth < texelFetch(opaque_depth, at, 0).r || texelFetch(sum, at, 0).a <= advance.min_transmittance;
-    gl_FragDepth = done ? 0.0 : depth;
+    if (done) discard;
+    gl_FragDepth = depth;
 }

@@ -220,19 +220,20 @@ TEMPLATE_LIST_TEST_CASE("lists are the same, bit for bit, in any number of bands
         const Found whole = find<TestType>(*device, scene, {60, 61}, content);
         CHECK(whole.bands == 1);
         check_walks(whole);
-        std::size_t disordered = 0, places = 0, most = 0;
+        std::size_t disordered = 0;
+        std::vector<gpu::LayerStrip> strips;
         for (std::uint32_t strip = 0; strip < whole.counts.height; strip += PELLUCID_LAYERS_TILE) {
-            std::size_t slots = 0;
+            strips.emplace_back();
             for (std::uint32_t y = strip; y < std::min(strip + PELLUCID_LAYERS_TILE, whole.counts.height); ++y)
                 for (std::uint32_t left = 0; left < whole.counts.width; left += PELLUCID_LAYERS_GROUP) {
                     std::uint32_t deepest = 0;
                     for (std::uint32_t x = left; x < std::min(left + PELLUCID_LAYERS_GROUP, whole.counts.width); ++x)
                         deepest = std::max(deepest, *whole.counts.texel(x, y));
-                    slots += std::size_t{PELLUCID_LAYERS_GROUP} * deepest;
+                    strips.back().slots += PELLUCID_LAYERS_GROUP * deepest;
                 }
-            places += slots;
-            most = std::max(most, slots);
         }
+        std::uint64_t places = 0, most = 0;
+        for (const gpu::LayerStrip& s : strips) places += s.slots, most = std::max<std::uint64_t>(most, s.slots);
         for (const std::vector<Stored>& pixel : whole.pixels)
             for (std::size_t i = 1; i < pixel.size(); ++i) {
                 const auto nearer = std::bit_cast<float>(pixel[i - 1].node.x),
@@ -240,13 +241,16 @@ TEMPLATE_LIST_TEST_CASE("lists are the same, bit for bit, in any number of bands
                 disordered += !(nearer > farther || (nearer == farther && pixel[i - 1].node.y > pixel[i].node.y));
             }
         CHECK(disordered == 0);
-        std::size_t bands = 1;
-        for (const std::size_t budget : {places - 1, places / 3, most}) {
+        constexpr std::uint64_t width = 1u << PELLUCID_LISTS_WIDTH_BITS;
+        REQUIRE(most <= width);  // so that a budget of `most` places holds every strip
+        for (const std::uint64_t budget : {places - 1, places / 3, most}) {
+            // An image has whole rows, and at least one.
+            const std::uint64_t room = budget > width ? budget - budget % width : budget;
             const Found cut = find<TestType>(*device, scene, {60, 61}, content, budget);
             INFO(budget << " of " << places << " places");
-            CHECK(cut.bands > bands);
+            CHECK(cut.bands > 1);
+            CHECK(cut.bands == must(split_strips(strips, room, 16)).size());
             CHECK(cut == whole);
-            bands = cut.bands;
         }
     }
 }

@@ -13,6 +13,7 @@ namespace {
 struct Counted {
     Image<std::uint32_t> counts;
     std::vector<gpu::LayerStrip> strips;
+    std::vector<std::uint32_t> tile_depths;
     LayerTotals totals;
 };
 
@@ -26,8 +27,10 @@ Counted count(typename B::Device& device, const Scene& scene, const Camera& came
             pass.record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
             return {};
         });
-    Counted out{
-        Image<std::uint32_t>(size.width, size.height, 1), {pass.strips().begin(), pass.strips().end()}, pass.totals()};
+    Counted out{.counts = Image<std::uint32_t>(size.width, size.height, 1),
+                .strips = {pass.strips().begin(), pass.strips().end()},
+                .tile_depths = {pass.tile_depths().begin(), pass.tile_depths().end()},
+                .totals = pass.totals()};
     const ImageF counts = stage.template read<float>(pass.counts(), rhi::Format::r32_float);
     for (std::size_t i = 0; i < counts.data.size(); ++i) {
         out.counts.data[i] = static_cast<std::uint32_t>(counts.data[i]);
@@ -65,6 +68,14 @@ void check_sums(const Counted& counted) {
         totals.pixels += wanted.covered;
         totals.deepest = std::max(totals.deepest, wanted.deepest);
     }
+    const std::uint32_t columns = (counts.width + 7) / 8;
+    std::vector<std::uint32_t> depths(std::size_t{columns} * counted.strips.size());
+    for (std::uint32_t y = 0; y < counts.height; ++y)
+        for (std::uint32_t x = 0; x < counts.width; ++x) {
+            std::uint32_t& depth = depths[y / 8 * columns + x / 8];
+            depth = std::max(depth, *counts.texel(x, y));
+        }
+    CHECK(counted.tile_depths == depths);
     CHECK(counted.totals.fragments == totals.fragments);
     CHECK(counted.totals.pixels == totals.pixels);
     CHECK(counted.totals.deepest == totals.deepest);

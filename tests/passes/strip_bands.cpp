@@ -83,3 +83,16 @@ TEST_CASE("any strips: bands are in order, hold everything, fit, and none could 
         for (; end < all.size(); ++end) REQUIRE(all[end].slots == 0);
     }
 }
+
+TEST_CASE("a strip that does not fit is refused by the one that takes most: raising the budget once is enough",
+          "[cpu]") {
+    const auto all = strips({3, 4, 9, 5});
+    const auto refused = split_strips(all, 3, 16);
+    REQUIRE_FALSE(refused);
+    CHECK(refused.error().code == Errc::invalid_argument);
+    CHECK(refused.error().message ==
+          "the translucent fragments of rows 16 to 23 of the picture alone take 144 bytes, and the memory budget has "
+          "room for 48 bytes of fragments: raise it to at least that");
+    CHECK(split_strips(all, 144 / 16, 16));
+    CHECK_FALSE(split_strips(all, 144 / 16 - 1, 16));
+}

@@ -41,7 +41,7 @@ bool has(const RenderStats& stats, const std::string& resource) {
     return std::any_of(stats.resources.begin(), stats.resources.end(),
                        [&](const TextureReport& r) { return r.name == resource; });
 }
-RenderStats stats_of(const Scene& scene, RenderSettings settings = {}) {
+RenderStats stats_of(const Scene& scene, RenderSettings settings = {.transparency = Transparency::sorted}) {
     settings.size = {32, 16};
     null::Device device;
     const auto renderer = test::must(Renderer<Null>::create(device, scene, settings));
@@ -126,8 +126,8 @@ TEST_CASE("an opaque scene has three passes, three pipelines and the targets of 
     CHECK(pass(s, "gbuffer").ran);
     CHECK(pass(s, "lighting").ran);
     CHECK(pass(s, "tonemap").ran);
-    CHECK_FALSE(pass(s, "sorted_forward").ran);
-    CHECK(pass(s, "sorted_forward").reason == "the scene has no translucent surface");
+    CHECK_FALSE(pass(s, "transparency").ran);
+    CHECK(pass(s, "transparency").reason == "the scene has no translucent surface");
     CHECK(s.pipelines == 3);
     CHECK(s.draws == 1);
     CHECK(s.triangles == 2);
@@ -137,7 +137,8 @@ TEST_CASE("an opaque scene has three passes, three pipelines and the targets of 
     for (const TextureReport& r : s.resources)
         if (std::string(r.name).rfind("scene.", 0) != 0) targets += r.bytes;
     CHECK(targets == pixels * (16 + 8 + 4));  // compact G-buffer with depth, HDR, display
-    const RenderStats classic = stats_of(plain(), {.gbuffer = GBufferLayout::classic});
+    const RenderStats classic =
+        stats_of(plain(), {.transparency = Transparency::sorted, .gbuffer = GBufferLayout::classic});
     CHECK(classic.bytes - s.bytes == pixels * 20);
 }
 
@@ -172,8 +173,8 @@ TEST_CASE("what a scene adds is what it costs", "[cpu]") {
     CHECK(stats_of(scene).pipelines == base.pipelines + 2);
     CHECK(stats_of(scene).draws == 3);  // back faces, front faces
     s = stats_of(scene, {.transparency = Transparency::none});
-    CHECK_FALSE(pass(s, "sorted_forward").ran);
-    CHECK(pass(s, "sorted_forward").reason == "transparency is switched off");
+    CHECK_FALSE(pass(s, "transparency").ran);
+    CHECK(pass(s, "transparency").reason == "transparency is switched off");
     CHECK(s.pipelines == base.pipelines);
     CHECK(s.draws == 1);
 
@@ -202,12 +203,12 @@ TEST_CASE("a scene without opaque surfaces has no G-buffer, and an empty one no 
     CHECK(s.pipelines == 2);
     s = stats_of(Scene{});
     CHECK(pass(s, "background").ran);
-    CHECK_FALSE(pass(s, "sorted_forward").ran);
+    CHECK_FALSE(pass(s, "transparency").ran);
     CHECK_FALSE(has(s, "depth"));
     CHECK(s.pipelines == 1);
     CHECK(s.draws == 0);
     // Asked to build everything, it does.
-    s = stats_of(Scene{}, {.every_need = true});
+    s = stats_of(Scene{}, {.transparency = Transparency::sorted, .every_need = true});
     for (const char* name : {"gbuffer", "lighting", "sorted_forward", "tonemap"}) CHECK(pass(s, name).ran);
     CHECK(has(s, "gbuffer.emissive"));
 }

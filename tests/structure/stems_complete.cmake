@@ -9,6 +9,7 @@ set(helpers
   fragment_desc   # a descriptor
   full_screen     # a triangle over the picture, with the shader of whoever owns it
   strip_bands     # arithmetic on the CPU
+  layer_areas     # the same
   fragment_lists) # memory that methods of transparency walk
 # Of those, the ones that are only a descriptor or a loop: every pass's test is theirs.
 set(helpers_without_test draw_list fragment_desc)

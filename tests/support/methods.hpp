@@ -5,25 +5,9 @@
 #include <algorithm>
 #include <optional>
 #include <pellucid/renderer/settings.hpp>
-#include <type_traits>
 #include <vector>
 
 namespace pellucid::test {
-
-/// Whether there is a method number `I`: behind the last one, `name` reads beyond its table, which is no constant.
-template <std::size_t I>
-concept IsMethod = requires {
-    typename std::bool_constant<(name(static_cast<Transparency>(I)) != nullptr)>;
-};
-
-template <std::size_t I = 0>
-[[nodiscard]] constexpr std::size_t method_count() {
-    if constexpr (IsMethod<I>)
-        return method_count<I + 1>();
-    else
-        return I;
-}
-static_assert(method_count() > static_cast<std::size_t>(Transparency::abuffer));
 
 /// How near to the truth a method comes.
 enum class Exactness : std::uint8_t {
@@ -41,8 +25,8 @@ struct MethodFacts {
     bool mixes_pixels = false;  ///< a pixel shows what lies beside it
 };
 
-/// The one list of what tests may expect of each method.  A method that is not here does not compile where warnings are
-/// errors, and fails a test elsewhere.
+/// What tests may expect of each method of `all_transparencies`.  One that is not here does not compile where warnings
+/// are errors, and fails a test elsewhere.
 [[nodiscard]] constexpr std::optional<MethodFacts> find_facts(Transparency t) {
     switch (t) {
         case Transparency::none:
@@ -68,7 +52,7 @@ struct MethodFacts {
 /// All of them, `none` too.
 [[nodiscard]] inline std::vector<Transparency> none_and_all_methods() {
     std::vector<Transparency> out;
-    for (std::size_t i = 0; i < method_count(); ++i) out.push_back(static_cast<Transparency>(i));
+    for (const TransparencyTraits& t : all_transparencies) out.push_back(t.method);
     return out;
 }
 /// All of them but `none`.

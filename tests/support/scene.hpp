@@ -90,9 +90,14 @@ template <rhi::Backend B>
     return out;
 }
 
-/// Settings of most tests: a square picture, black where nothing is, the G-buffer kept, no light of its own.
+/// Settings of most tests: a square picture, black where nothing is, the G-buffer kept, no light of its own, and the
+/// method of transparency whose pipelines are built fastest.
 [[nodiscard]] inline RenderSettings settings_for(std::uint32_t size) {
-    return {.size = {size, size}, .background = {0, 0, 0}, .default_light = false, .keep_gbuffer = true};
+    return {.size = {size, size},
+            .transparency = Transparency::sorted,
+            .background = {0, 0, 0},
+            .default_light = false,
+            .keep_gbuffer = true};
 }
 
 /// Spheres and a plane of several materials, lit by lights of every kind: what pictures are compared on.

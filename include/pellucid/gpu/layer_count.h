@@ -6,6 +6,7 @@
 
 #define PELLUCID_LAYERS_COUNTS 1   // storage image, r32f: fragments of each pixel
 #define PELLUCID_LAYERS_STRIPS 13  // storage block: LayerStrip a strip
+#define PELLUCID_LAYERS_TILES 14   // storage block: uint a tile: fragments of its deepest pixel; rows from the top
 
 #define PELLUCID_LAYERS_TILE 8u  // edge of a tile, height of a strip [pixel]
 // Neighbours in a row whose fragments are stored side by side, the first fragments of all, then the second ones, …:

@@ -97,15 +97,7 @@ private:
     std::vector<TextureReport> texture_reports_;
 };
 
-/// [byte] what the levels and layers of a texture hold.
-[[nodiscard]] constexpr std::uint64_t texture_bytes(const rhi::TextureDesc& desc) {
-    std::uint64_t bytes = 0;
-    for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
-        const std::uint64_t w = desc.size.width >> mip, h = desc.size.height >> mip;
-        bytes += (w ? w : 1) * (h ? h : 1) * desc.layers * rhi::info(desc.format).bytes;
-    }
-    return bytes;
-}
+using rhi::texture_bytes;
 
 // ------------------------------------------------------------------------------------------------------- bodies
 

@@ -41,6 +41,13 @@ public:
     [[nodiscard]] std::uint64_t pool_bytes() const { return lists_.bytes(); }
     /// r32_uint `[h, w]`: fragments composited in each pixel; 1 × 1 unless `audit`.
     [[nodiscard]] rhi::Texture composited() const { return audit_; }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
+    template <class F>
+    void each_resource(F&& visit) const {
+        lists_.each_resource(visit);
+        const Extent2D size = desc_.audit ? desc_.fragments.size : Extent2D{1, 1};
+        visit("abuffer.audit", std::uint64_t{4} * size.width * size.height);
+    }
 
 private:
     [[nodiscard]] Result<void> make_pipelines(typename B::Device& device, const rhi::GroupLayout& layout);

@@ -78,6 +78,17 @@ public:
     [[nodiscard]] std::uint64_t bytes() const {
         return (std::uint64_t{rows_} << PELLUCID_LISTS_WIDTH_BITS) * fragment_bytes();
     }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the lists own.
+    template <class F>
+    void each_resource(F&& visit) const {
+        visit("fragment_lists.bases", std::uint64_t{4} * strip_bases_.size());
+        visit("fragment_lists.classes", PELLUCID_LISTS_CLASS_COUNT * sizeof(gpu::ListClass));
+        visit("fragment_lists.tiles", std::uint64_t{4} * PELLUCID_LISTS_CLASS_COUNT * tiles());
+        visit("fragment_lists.cursors", std::uint64_t{4} * desc_.fragments.size.width * desc_.fragments.size.height);
+        const std::uint64_t each = bytes() / (lit_later() ? 2 : 1);
+        if (nodes_) visit("fragment_lists.nodes", each);
+        if (looks_) visit("fragment_lists.looks", each);
+    }
 
 private:
     [[nodiscard]] std::uint32_t fragment_bytes() const { return PELLUCID_LISTS_TEXEL_BYTES * (lit_later() ? 2u : 1u); }
@@ -182,6 +193,7 @@ Result<bool> FragmentLists<B>::prepare(typename B::Device& device, std::span<con
     constexpr std::uint32_t width = 1u << PELLUCID_LISTS_WIDTH_BITS;
     std::uint64_t most = std::uint64_t{device.info().max_texture_size} * width;
     if (desc_.memory_budget != 0) most = std::min(most, desc_.memory_budget / fragment_bytes());
+    if (most > width) most -= most % width;  // an image has whole rows, and at least one
     PELLUCID_TRY(bands_, split_strips(strips, most, fragment_bytes()));
     PELLUCID_CHECK(check_depth(device.info(), strips));
     std::uint32_t needed = 0;

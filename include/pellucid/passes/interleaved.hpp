@@ -51,6 +51,13 @@ public:
     [[nodiscard]] std::uint64_t pool_bytes() const { return lists_.bytes(); }
     /// r32_uint `[h, w]`: surfaces lit for each pixel; 1 × 1 unless `audit`.
     [[nodiscard]] rhi::Texture lit() const { return audit_; }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
+    template <class F>
+    void each_resource(F&& visit) const {
+        lists_.each_resource(visit);
+        const Extent2D size = desc_.audit ? desc_.fragments.size : Extent2D{1, 1};
+        visit("interleaved.audit", std::uint64_t{4} * size.width * size.height);
+    }
 
 private:
     using Pipelines = rhi::Unique<typename B::Device, rhi::Pipeline>[PELLUCID_LISTS_CLASS_COUNT];

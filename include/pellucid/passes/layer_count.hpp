@@ -25,28 +25,61 @@ public:
     /// Errors: those of creation.
     [[nodiscard]] static Result<LayerCountPass> create(typename B::Device& device, const FragmentDesc& desc);
 
-    /// Records the passes that count and bring the strips' sums to the CPU.  `depth`: d32_float `[h, w]`, read only.
+    /// Records the passes that count and bring the sums to the CPU.  `depth`: d32_float `[h, w]`, read only.
     /// Precondition: no pass is open.
     void record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                 std::span<const DrawItem> items) const;
 
     /// Sums of strips of PELLUCID_LAYERS_TILE rows, from the top.  Precondition: what was recorded is done.
     [[nodiscard]] std::span<const gpu::LayerStrip> strips() const { return strips_; }
+    /// Fragments of the deepest pixel of each tile of PELLUCID_LAYERS_TILE² pixels, row by row from the top.
+    [[nodiscard]] std::span<const std::uint32_t> tile_depths() const { return tile_depths_; }
     [[nodiscard]] LayerTotals totals() const;
     /// r32_float `[h, w]`: the fragments of each pixel; storage and copy_source.
     [[nodiscard]] rhi::Texture counts() const { return counts_; }
+    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
+    template <class F>
+    void each_resource(F&& visit) const {
+        visit("layer_count.counts", std::uint64_t{4} * desc_.size.width * desc_.size.height);
+        visit("layer_count.strips", strips_.size_bytes());
+        visit("layer_count.tiles", tile_depths_.size_bytes());
+        visit("layer_count.readback", strips_.size_bytes() + tile_depths_.size_bytes());
+    }
 
 private:
     rhi::Unique<typename B::Device, rhi::Texture> counts_;
-    rhi::Unique<typename B::Device, rhi::Buffer> strip_buffer_, readback_;
+    rhi::Unique<typename B::Device, rhi::Buffer> strip_buffer_, tile_buffer_, strip_readback_, tile_readback_;
     rhi::Unique<typename B::Device, rhi::Group> strip_group_;
     CullVariants<B> count_;
     rhi::Unique<typename B::Device, rhi::Pipeline> sum_;
     std::span<const gpu::LayerStrip> strips_;
+    std::span<const std::uint32_t> tile_depths_;
     FragmentDesc desc_;
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
+
+namespace detail {
+
+/// `count` numbers that a shader writes, and the same on the CPU once they are copied.
+template <rhi::Backend B, class T>
+Result<void> make_numbers(typename B::Device& device, rhi::Unique<typename B::Device, rhi::Buffer>& written,
+                          rhi::Unique<typename B::Device, rhi::Buffer>& readback, std::span<const T>& numbers,
+                          std::size_t count, const char* debug_name) {
+    PELLUCID_OWN(written, device,
+                 device.make_buffer({.size = count * sizeof(T),
+                                     .usage = rhi::BufferUsage::storage | rhi::BufferUsage::copy_source,
+                                     .debug_name = debug_name}));
+    PELLUCID_OWN(readback, device,
+                 device.make_buffer({.size = count * sizeof(T),
+                                     .usage = rhi::BufferUsage::copy_destination,
+                                     .memory = rhi::Memory::readback,
+                                     .debug_name = debug_name}));
+    numbers = {reinterpret_cast<const T*>(device.mapped(readback).data()), count};
+    return {};
+}
+
+}  // namespace detail
 
 template <rhi::Backend B>
 Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, const FragmentDesc& desc) {
@@ -60,23 +93,19 @@ Result<LayerCountPass<B>> LayerCountPass<B>::create(typename B::Device& device, 
                                       .usage = rhi::TextureUsage::storage | rhi::TextureUsage::attachment |
                                                rhi::TextureUsage::copy_source,
                                       .debug_name = "layer_count.counts"}));
-    const std::uint32_t strips = (size.height + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE;
-    PELLUCID_OWN(pass.strip_buffer_, device,
-                 device.make_buffer({.size = strips * sizeof(gpu::LayerStrip),
-                                     .usage = rhi::BufferUsage::storage | rhi::BufferUsage::copy_source,
-                                     .debug_name = "layer_count.strips"}));
-    PELLUCID_OWN(pass.readback_, device,
-                 device.make_buffer({.size = strips * sizeof(gpu::LayerStrip),
-                                     .usage = rhi::BufferUsage::copy_destination,
-                                     .memory = rhi::Memory::readback,
-                                     .debug_name = "layer_count.readback"}));
-    pass.strips_ = {reinterpret_cast<const gpu::LayerStrip*>(device.mapped(pass.readback_).data()), strips};
-    const rhi::GroupLayout layout{
-        {{PELLUCID_LAYERS_COUNTS, storage_texture}, {PELLUCID_LAYERS_STRIPS, storage_buffer}}};
+    const auto tiles = [](std::uint32_t side) { return (side + PELLUCID_LAYERS_TILE - 1) / PELLUCID_LAYERS_TILE; };
+    PELLUCID_CHECK(detail::make_numbers<B>(device, pass.strip_buffer_, pass.strip_readback_, pass.strips_,
+                                           tiles(size.height), "layer_count.strips"));
+    PELLUCID_CHECK(detail::make_numbers<B>(device, pass.tile_buffer_, pass.tile_readback_, pass.tile_depths_,
+                                           tiles(size.height) * tiles(size.width), "layer_count.tiles"));
+    const rhi::GroupLayout layout{{{PELLUCID_LAYERS_COUNTS, storage_texture},
+                                   {PELLUCID_LAYERS_STRIPS, storage_buffer},
+                                   {PELLUCID_LAYERS_TILES, storage_buffer}}};
     PELLUCID_OWN(pass.strip_group_, device,
                  device.make_group({.layout = layout,
                                     .bindings = {{.binding = PELLUCID_LAYERS_COUNTS, .texture = pass.counts_},
-                                                 {.binding = PELLUCID_LAYERS_STRIPS, .buffer = pass.strip_buffer_}},
+                                                 {.binding = PELLUCID_LAYERS_STRIPS, .buffer = pass.strip_buffer_},
+                                                 {.binding = PELLUCID_LAYERS_TILES, .buffer = pass.tile_buffer_}},
                                     .debug_name = "layer_count.strips"}));
     constexpr rhi::Blend add{.enabled = true, .dst_color = rhi::BlendFactor::one, .dst_alpha = rhi::BlendFactor::one};
     PELLUCID_CHECK(pass.count_.create(device,
@@ -104,16 +133,19 @@ void LayerCountPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, co
     draw_items<B>(cmd, count_, scene, items);
     cmd.end_render();
 
-    cmd.begin_compute({.uses = {rhi::use(counts_, storage_read), rhi::use(strip_buffer_, storage_write)},
+    cmd.begin_compute({.uses = {rhi::use(counts_, storage_read), rhi::use(strip_buffer_, storage_write),
+                                rhi::use(tile_buffer_, storage_write)},
                        .name = "layer_count.strips"});
     cmd.bind_pipeline(sum_);
     cmd.bind_group(strip_group_);
     cmd.dispatch(static_cast<std::uint32_t>(strips_.size()), 1, 1);
     cmd.end_compute();
 
-    cmd.begin_copy({.uses = {rhi::use(strip_buffer_, copy_read), rhi::use(readback_, copy_write)},
+    cmd.begin_copy({.uses = {rhi::use(strip_buffer_, copy_read), rhi::use(strip_readback_, copy_write),
+                             rhi::use(tile_buffer_, copy_read), rhi::use(tile_readback_, copy_write)},
                     .name = "layer_count.readback"});
-    cmd.copy(strip_buffer_, readback_, {.size = strips_.size_bytes()});
+    cmd.copy(strip_buffer_, strip_readback_, {.size = strips_.size_bytes()});
+    cmd.copy(tile_buffer_, tile_readback_, {.size = tile_depths_.size_bytes()});
     cmd.end_copy();
 }
 

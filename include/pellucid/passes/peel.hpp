@@ -9,6 +9,7 @@
 #include <pellucid/shaders/peel.hpp>
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace pellucid {
 
@@ -31,12 +32,14 @@ struct PeelTargets {
 
 /// Layer by layer, nearest first:
 ///   nearest: the depth of the nearest fragments behind the last layer, by blending with MAX under the depth test LESS;
-///   advance: that depth becomes the layer (depth 0 where the pixel is done);
+///   advance: that depth becomes the layer, depth 0 where the pixel is done: what was found is behind something opaque,
+///     or no more gets through;
 ///   layer: all fragments of exactly this depth (the depth test EQUAL compares bits) are shaded and composited under
 ///     what is there, C += T c, T *= 1 - a, in single precision; the last primitive first.
-/// It goes on until a `nearest` lets no sample through, so any number of layers is composited; every fragment is shaded
-/// once.  With `max_layers` or `min_transmittance` t > 0 the error of a pixel is at most the share of light that its
-/// composited layers let through (for t: at most t) times the largest radiance behind.  Shaders: shaders/peel.
+/// It goes on until no pixel has a layer, by an occlusion query of `advance`, so any number of layers is composited;
+/// every fragment is shaded once.  With `max_layers` or `min_transmittance` t > 0 the error of a pixel is at most the
+/// share of light that its composited layers let through (for t: at most t) times the largest radiance behind. Shaders:
+/// shaders/peel.
 template <rhi::Backend B>
 class PeelPass {
 public:
@@ -44,8 +47,10 @@ public:
     [[nodiscard]] static Result<PeelPass> create(typename B::Device& device, const PeelDesc& desc,
                                                  const PeelTargets& targets);
 
-    /// Starts a frame.  Precondition of this and of all that record: no pass is open.
-    void begin(typename B::Commands& cmd);
+    /// Starts a frame.  `areas[k]`: pixels outside have no layer k, and none has a layer beyond the last
+    /// (`layer_areas`): passes are drawn in there.  Empty: nothing is known, and they are drawn over the whole picture.
+    /// Precondition of this and of all that record: no pass is open.
+    void begin(typename B::Commands& cmd, std::vector<rhi::Rect> areas = {});
     /// Records some layers more.  `items` in the order of the scene, `reversed` the same surfaces in exactly the
     /// reverse order of primitives.
     void record_layers(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
@@ -64,10 +69,16 @@ private:
     static constexpr std::uint32_t batch_limit = 64;
 
     [[nodiscard]] Result<void> make_pipelines(typename B::Device& device);
-    void nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
-                 std::uint32_t query) const;
+    void nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items) const;
     void advance(typename B::Commands& cmd) const;
     void layer(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> reversed) const;
+
+    /// Of the layer that is recorded.
+    [[nodiscard]] rhi::Rect area() const {
+        const Extent2D size = desc_.fragments.size;
+        return areas_.empty() ? rhi::Rect{.width = size.width, .height = size.height} : areas_[recorded_];
+    }
+    [[nodiscard]] bool recorded_all() const { return !areas_.empty() && recorded_ == areas_.size(); }
 
     PeelDesc desc_;
     PeelTargets targets_;
@@ -76,6 +87,7 @@ private:
     FullScreenPass<B> advance_, composite_;
     rhi::Unique<typename B::Device, rhi::Queries> queries_;
     CullVariants<B> first_, nearest_, layer_;
+    std::vector<rhi::Rect> areas_;
     std::uint32_t recorded_ = 0;  ///< layers of this frame, up to now
     std::uint32_t in_batch_ = 0;  ///< of them in the last batch
     std::uint32_t batch_ = 4;     ///< size of the next batch
@@ -153,8 +165,9 @@ Result<void> PeelPass<B>::make_pipelines(typename B::Device& device) {
 }
 
 template <rhi::Backend B>
-void PeelPass<B>::begin(typename B::Commands& cmd) {
-    recorded_ = in_batch_ = 0;
+void PeelPass<B>::begin(typename B::Commands& cmd, std::vector<rhi::Rect> areas) {
+    areas_ = std::move(areas);
+    recorded_ = in_batch_ = found_ = 0;
     probed_ = truncated_ = false;
     rhi::RenderPassDesc clear{.colors = {{.texture = targets_.sum, .clear = {0, 0, 0, 1}}},
                               .size = desc_.fragments.size,
@@ -165,27 +178,27 @@ void PeelPass<B>::begin(typename B::Commands& cmd) {
 }
 
 template <rhi::Backend B>
-void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
-                          std::uint32_t query) const {
+void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items) const {
     const bool first = recorded_ == 0;
     rhi::RenderPassDesc pass =
         desc_.fragments.render_pass(first ? targets_.opaque : targets_.layer, scene, "peel.nearest");
     pass.colors.push_back({.texture = targets_.next, .clear = {-1, 0, 0, 0}});
     cmd.begin_render(pass);
-    cmd.begin_query(queries_, query);
+    cmd.set_scissor(area());
     draw_items<B>(cmd, first ? first_ : nearest_, scene, items);
-    cmd.end_query(queries_, query);
     cmd.end_render();
 }
 
 template <rhi::Backend B>
 void PeelPass<B>::advance(typename B::Commands& cmd) const {
     const gpu::PeelAdvance push{.min_transmittance = desc_.audit ? -1.0f : desc_.min_transmittance};
-    advance_.record(cmd,
-                    {.depth = {.texture = targets_.layer, .load = rhi::Load::discard}, .size = desc_.fragments.size},
+    advance_.record(cmd, {.depth = {.texture = targets_.layer, .clear = 0}, .size = desc_.fragments.size},
                     [&](typename B::Commands& c, auto&& draw) {
                         c.push(rhi::bytes_of(push));
+                        c.set_scissor(area());
+                        c.begin_query(queries_, in_batch_);
                         draw();
+                        c.end_query(queries_, in_batch_);
                     });
 }
 
@@ -199,6 +212,7 @@ void PeelPass<B>::layer(typename B::Commands& cmd, const SceneBinding& scene,
     pass.uses.push_back(rhi::use(targets_.next, sampled));
     pass.uses.push_back(rhi::use(targets_.opaque, sampled));
     cmd.begin_render(pass);
+    cmd.set_scissor(area());
     draw_items<B>(cmd, layer_, scene, reversed, layer_group_);
     cmd.end_render();
 }
@@ -207,31 +221,31 @@ template <rhi::Backend B>
 void PeelPass<B>::record_layers(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items,
                                 std::span<const DrawItem> reversed) {
     cmd.reset(queries_);
-    for (in_batch_ = 0; in_batch_ < batch_; ++in_batch_, ++recorded_) {
-        nearest(cmd, scene, items, in_batch_);
+    for (in_batch_ = 0; in_batch_ < batch_ && !recorded_all(); ++recorded_) {
+        nearest(cmd, scene, items);
+        advance(cmd);
+        ++in_batch_;
         if (desc_.max_layers != 0 && recorded_ == desc_.max_layers) {
-            ++in_batch_;
             probed_ = true;
             return;
         }
-        advance(cmd);
         layer(cmd, scene, reversed);
     }
 }
 
 template <rhi::Backend B>
 Result<bool> PeelPass<B>::more(typename B::Device& device) {
-    std::array<std::uint64_t, batch_limit> samples{};
-    PELLUCID_CHECK(device.results(queries_, 0, std::span(samples).first(in_batch_)));
-    const auto end = samples.begin() + in_batch_;
-    const auto empty = std::find(samples.begin(), end, std::uint64_t{0});
-    if (empty == end && !probed_) {
+    std::array<std::uint64_t, batch_limit> pixels{};
+    PELLUCID_CHECK(device.results(queries_, 0, std::span(pixels).first(in_batch_)));
+    const auto end = pixels.begin() + in_batch_;
+    const auto empty = std::find(pixels.begin(), end, std::uint64_t{0});
+    if (empty == end && !probed_ && !recorded_all()) {
         batch_ = std::min(2 * batch_, batch_limit);
         return true;
     }
-    truncated_ = empty == end;
+    truncated_ = probed_ && empty == end;
     const std::uint32_t before = recorded_ + (probed_ ? 1 : 0) - in_batch_;
-    found_ = truncated_ ? desc_.max_layers : before + static_cast<std::uint32_t>(empty - samples.begin());
+    found_ = truncated_ ? desc_.max_layers : before + static_cast<std::uint32_t>(empty - pixels.begin());
     batch_ = std::min(found_ + 1, batch_limit);  // the next frame is like this one
     return false;
 }

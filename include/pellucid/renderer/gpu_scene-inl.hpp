@@ -177,6 +177,7 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
                                           .kind = rhi::TextureKind::array,
                                           .initial = rhi::bytes_of(white),
                                           .debug_name = "scene.no_texture"}));
+        out.resources_.push_back({"scene.no_texture", sizeof white, false});
         out.textures_.push_back(std::move(texture));
         rhi::Unique<typename B::Device, rhi::Sampler> sampler;
         PELLUCID_OWN(sampler, device, device.make_sampler({.mipmapped = false, .debug_name = "scene.no_texture"}));

@@ -2,10 +2,12 @@
 #pragma once
 /// \file
 /// What a scene needs, and why: it culls passes, sizes targets and sets specialisation constant 0 of every shader.
+#include <pellucid/gpu/fragment_lists.h>
 #include <pellucid/gpu/scene.h>
 #include <pellucid/renderer/settings.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <cstdint>
+#include <string>
 
 namespace pellucid {
 
@@ -28,6 +30,22 @@ struct SceneNeeds {
 }
 /// [cd/m²] the constant ambient of a scene without lights.
 inline constexpr float default_ambient = 0.25f;
+
+/// That a device can run a method of transparency.  Error: `unsupported`: what the method needs, what there is.
+[[nodiscard]] inline Result<void> check_device(Transparency method, const rhi::DeviceInfo& device) {
+    const auto refuse = [&](const std::string& needs, const std::string& has) -> Error {
+        return {Errc::unsupported, std::string("the method '") + name(method) + "' needs " + needs + ", and " +
+                                       device.name + " (" + device.backend + ") " + has +
+                                       ": choose another method or another device"};
+    };
+    constexpr std::uint32_t side = 1u << PELLUCID_LISTS_WIDTH_BITS;
+    if (traits(method).memory_budget && device.max_texture_size < side)  // it stores fragments
+        return refuse("textures of " + std::to_string(side) + " texels a side",
+                      "has at most " + std::to_string(device.max_texture_size));
+    if (traits(method).float32_blending && !device.float32_blending)
+        return refuse("blending into 32-bit float targets", "has none");
+    return {};
+}
 
 /// What drawing `scene` with `settings` takes.
 [[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {

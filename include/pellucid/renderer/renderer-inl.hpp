@@ -15,6 +15,7 @@ Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& dev
         return Error{Errc::invalid_argument, "the picture's size is " + std::to_string(settings.size.width) + "x" +
                                                  std::to_string(settings.size.height) + "; each side must be 1 to " +
                                                  std::to_string(limit) + " on " + device.info().name};
+    PELLUCID_CHECK(check_device(settings.transparency, device.info()));
     std::unique_ptr<Renderer> renderer(new Renderer(device));
     renderer->settings_ = settings;
     PELLUCID_CHECK(renderer->build(scene));
@@ -228,7 +229,9 @@ RenderStats Renderer<B>::stats() const {
                       .draws = static_cast<std::uint32_t>(scene_->opaque().size() + scene_->translucent().size()),
                       .triangles = scene_->triangles(),
                       .lights = scene_->lights(),
+                      .translucency = translucent_.stats(),
                       .warnings = warnings_};
+    translucent_.add_resources(stats.resources);
     stats.resources.insert(stats.resources.end(), scene_->resources().begin(), scene_->resources().end());
     stats.warnings.insert(stats.warnings.end(), scene_->warnings().begin(), scene_->warnings().end());
     for (const TextureReport& r : stats.resources) stats.bytes += r.bytes;

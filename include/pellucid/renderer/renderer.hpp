@@ -21,12 +21,13 @@ namespace pellucid {
 /// What a frame took.  Bytes are of the renderer's own objects; the device's rings are apart.
 struct RenderStats {
     std::vector<PassReport> passes;        ///< in order; left-out ones with the reason
-    std::vector<TextureReport> resources;  ///< targets and the scene's buffers and textures
+    std::vector<TextureReport> resources;  ///< targets, the passes' own buffers and textures, the scene's
     std::uint64_t bytes = 0;               ///< their sum
     std::uint32_t pipelines = 0;           ///< built
     std::uint32_t draws = 0;               ///< a frame
     std::uint64_t triangles = 0;           ///< of the scene's instances
     std::uint32_t lights = 0;
+    TranslucencyStats translucency;     ///< of the last frame
     std::vector<std::string> warnings;  ///< of the scene and of its upload
 };
 
@@ -37,7 +38,8 @@ public:
     static constexpr std::size_t depth_index = 15;
 
     /// Builds what the scene needs and nothing else.  `scene` is copied where it must be kept.
-    /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit; those of creation.
+    /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit; `unsupported` where the device cannot
+    /// run the method of transparency; those of creation.
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
 
@@ -54,10 +56,13 @@ public:
     [[nodiscard]] Result<rhi::Texels> read_gbuffer(std::size_t index);
 
     /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
-    /// own and waits.
+    /// own and waits.  `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
     /// `[h, w, 1]` fragments that the last frame composited in each pixel, with settings.audit; waits.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited() { return translucent_.read_composited(*device_); }
+    /// In [0,1]: a bound of what fragments that the last frame left out are worth, as a share of the largest radiance
+    /// behind; waits.  `invalid_argument` for methods without one: those that do not heed min_transmittance.
+    [[nodiscard]] Result<double> read_transmittance_left() { return translucent_.read_transmittance_left(*device_); }
 
     [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] const SceneNeeds& needs() const noexcept { return needs_; }

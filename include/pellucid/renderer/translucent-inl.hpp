@@ -55,6 +55,7 @@ void Translucent<B>::declare_after_lighting() {
 
 template <rhi::Backend B>
 GraphTexture Translucent<B>::target(rhi::Format format, rhi::TextureUsage usage, const char* debug_name) {
+    own_targets_.push_back(debug_name);
     return graph_->texture({.size = settings_->size, .format = format, .usage = usage, .debug_name = debug_name});
 }
 
@@ -86,9 +87,12 @@ void Translucent<B>::declare_sorted() {
 template <rhi::Backend B>
 void Translucent<B>::declare_peel() {
     using enum rhi::TextureUsage;
-    const GraphTexture next = target(rhi::Format::r32_float, attachment | sampled, "peel.next");
+    declare_layer_count();
+    const GraphTexture next = target(rhi::Format::r32_float, attachment | sampled | copy_source, "peel.next");
     const GraphTexture layer = target(rhi::Format::d32_float, attachment, "peel.layer");
     const GraphTexture sum = target(rhi::Format::rgba32_float, attachment | sampled | copy_source, "peel.sum");
+    graph_->keep(peel_next_ = next);
+    graph_->keep(peel_sum_ = sum);
     GraphPassDesc pass{
         .name = "peel", .reads = {targets_.hdr, targets_.depth}, .writes = {targets_.hdr, next, layer, sum}};
     GraphTexture count;
@@ -115,8 +119,11 @@ void Translucent<B>::declare_peel() {
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
-            peel_->begin(frame.commands());
-            for (bool more = true; more;) {
+            PELLUCID_CHECK(frame.flush());  // the counts
+            std::vector<rhi::Rect> areas = layer_areas(count_->tile_depths(), settings_->size);
+            bool more = !areas.empty();
+            peel_->begin(frame.commands(), std::move(areas));
+            while (more) {
                 peel_->record_layers(frame.commands(), scene_->binding(), scene_->translucent(),
                                      scene_->translucent_reversed());
                 PELLUCID_CHECK(frame.flush());
@@ -347,6 +354,9 @@ Result<Image<std::uint32_t>> Translucent<B>::read_numbers(typename B::Device& de
 template <rhi::Backend B>
 Result<Image<std::uint32_t>> Translucent<B>::count_layers(typename B::Device& device, Frame<B>& frame) {
     if (scene_->translucent().empty()) return Image<std::uint32_t>(settings_->size.width, settings_->size.height, 1);
+    if (!device.info().float32_blending)
+        return Error{Errc::unsupported, "layers are counted by blending into a 32-bit float target, and " +
+                                            device.info().name + " cannot: there are no counts on this device"};
     if (!count_) {
         PELLUCID_TRY(count_, LayerCountPass<B>::create(device, fragments()));
     }
@@ -365,7 +375,79 @@ Result<Image<std::uint32_t>> Translucent<B>::read_composited(typename B::Device&
     if (settings_->audit && interleaved_) return read_numbers(device, interleaved_->lit(), rhi::Format::r32_uint);
     return Error{Errc::invalid_argument, std::string("nobody counts what the method '") +
                                              name(settings_->transparency) +
-                                             "' composites: set audit, and use peel or abuffer"};
+                                             "' composites: set audit, and use a method that heeds it"};
+}
+
+template <rhi::Backend B>
+Result<double> Translucent<B>::read_transmittance_left(typename B::Device& device) const {
+    const double least = settings_->audit ? 0 : settings_->min_transmittance;
+    if (!traits(settings_->transparency).min_transmittance)
+        return Error{Errc::invalid_argument, std::string("there is no bound of what the method '") +
+                                                 name(settings_->transparency) +
+                                                 "' leaves out; those that heed min_transmittance have one"};
+    if (!needs_.translucent) return 0.0;
+    if (!peel_ || (!peel_->truncated() && least == 0)) return least;
+    rhi::Texels next, sum;
+    PELLUCID_TRY(next, rhi::download<B>(device, (*this)[peel_next_],
+                                        {.size = settings_->size, .format = rhi::Format::r32_float}));
+    PELLUCID_TRY(sum, rhi::download<B>(device, (*this)[peel_sum_],
+                                       {.size = settings_->size, .format = rhi::Format::rgba32_float}));
+    double left = 0;
+    for (std::uint32_t y = 0; y < settings_->size.height; ++y)
+        for (std::uint32_t x = 0; x < settings_->size.width; ++x) {
+            const double through = sum.at<std::array<float, 4>>(x, y)[3];
+            // The search for one layer more found something, or the pixel was given up as dark.
+            if ((peel_->truncated() && next.at<float>(x, y) >= 0) || through <= least) left = std::max(left, through);
+        }
+    return left;
+}
+
+template <rhi::Backend B>
+TranslucencyStats Translucent<B>::stats() const {
+    const TransparencyTraits& method = traits(settings_->transparency);
+    TranslucencyStats out{.method = method.method, .ran = needs_.translucent, .loses = method.loses};
+    const auto lose = [&](const std::string& what) { out.loses += (out.loses.empty() ? "" : "; ") + what; };
+    if (method.min_transmittance && settings_->min_transmittance > 0 && !settings_->audit) {
+        char share[32];
+        std::snprintf(share, sizeof share, "%g", static_cast<double>(settings_->min_transmittance));
+        lose(std::string("what is behind layers that let at most ") + share + " of the light through");
+    }
+    if (peel_) {
+        out.layers = peel_->layers();
+        out.truncated = peel_->truncated();
+        if (out.truncated) lose("layers behind the first " + std::to_string(out.layers));
+    }
+    if (peel_seed_) out.layers = settings_->max_layers ? settings_->max_layers : PELLUCID_PEEL_SEED_LAYERS;
+    if (dual_peel_) {
+        out.passes = dual_peel_->passes();
+        out.truncated = settings_->max_layers != 0 && out.passes == settings_->max_layers;
+        if (out.truncated)
+            lose("layers between the first " + std::to_string(out.passes) + " and the last " +
+                 std::to_string(out.passes));
+    }
+    if (abuffer_) {
+        out.bands = static_cast<std::uint32_t>(abuffer_->bands());
+        out.pool_bytes = abuffer_->pool_bytes();
+    }
+    if (interleaved_) {
+        out.bands = static_cast<std::uint32_t>(interleaved_->bands());
+        out.pool_bytes = interleaved_->pool_bytes();
+    }
+    out.exact = out.loses.empty();
+    std::vector<TextureReport> resources;
+    add_resources(resources);
+    for (const TextureReport& r : graph_->textures())
+        if (std::find(own_targets_.begin(), own_targets_.end(), r.name) != own_targets_.end()) resources.push_back(r);
+    for (const TextureReport& r : resources) out.bytes += r.bytes;
+    return out;
+}
+
+template <rhi::Backend B>
+void Translucent<B>::add_resources(std::vector<TextureReport>& out) const {
+    const auto add = [&](const char* debug_name, std::uint64_t bytes) { out.push_back({debug_name, bytes, false}); };
+    if (count_) count_->each_resource(add);
+    if (abuffer_) abuffer_->each_resource(add);
+    if (interleaved_) interleaved_->each_resource(add);
 }
 
 }  // namespace pellucid

@@ -7,16 +7,34 @@
 #include <pellucid/passes/dual_peel.hpp>
 #include <pellucid/passes/interleaved.hpp>
 #include <pellucid/passes/interleaved_skyx.hpp>
+#include <pellucid/passes/layer_areas.hpp>
 #include <pellucid/passes/layer_count.hpp>
 #include <pellucid/passes/peel.hpp>
 #include <pellucid/passes/peel_seed.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/rhi/readback.hpp>
+#include <array>
 #include <bit>
+#include <cstdio>
 #include <optional>
+#include <string>
 
 namespace pellucid {
+
+/// What the method of the last frame did, and what is missing from the picture.
+struct TranslucencyStats {
+    Transparency method = Transparency::none;
+    bool ran = false;              ///< the scene has translucent surfaces, and the method drew them
+    bool exact = false;            ///< no fragment is missing or in a wrong place, whatever the scene
+    std::string loses;             ///< what may be missing or out of place; empty where `exact`
+    std::uint32_t layers = 0;      ///< peel: peeled; peel_seed: drawn
+    bool truncated = false;        ///< peel: max_layers left fragments out.  dual_peel: it may have
+    std::uint32_t passes = 0;      ///< dual_peel: that found anything
+    std::uint32_t bands = 0;       ///< abuffer, interleaved: of rows, made one after the other
+    std::uint64_t pool_bytes = 0;  ///< abuffer, interleaved: [byte] for stored fragments
+    std::uint64_t bytes = 0;       ///< [byte] of all targets, textures and buffers of the method, the pool too
+};
 
 /// What a method asks of the lighting pass: textures of the graph, null where it asks for nothing.
 struct LightingChanges {
@@ -40,11 +58,22 @@ public:
     void declare_after_lighting();
 
     /// Counts the fragments of each pixel in a frame of its own, opened and closed here, and waits.  `[h, w, 1]`.
+    /// `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers(typename B::Device& device, Frame<B>& frame);
     /// What each pixel composited in the last frame; waits.  `invalid_argument` unless the method was audited.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited(typename B::Device& device) const;
 
+    /// In [0,1]: the largest share of the light behind that gets through what the last frame composited, over the
+    /// pixels where it may have left something out.  No pixel is off by more than this share of the largest radiance
+    /// behind. Waits.  `invalid_argument` for methods that have no such bound: those that do not heed
+    /// min_transmittance.
+    [[nodiscard]] Result<double> read_transmittance_left(typename B::Device& device) const;
+
     [[nodiscard]] std::uint32_t pipelines() const noexcept { return pipelines_; }  ///< built so far
+    /// Of the last frame.
+    [[nodiscard]] TranslucencyStats stats() const;
+    /// Appends the buffers and textures that the passes own; the graph reports its own.
+    void add_resources(std::vector<TextureReport>& out) const;
 
 private:
     void declare_sorted();
@@ -85,6 +114,8 @@ private:
     const GpuScene<B>* scene_ = nullptr;
     const RenderSettings* settings_ = nullptr;
     SceneNeeds needs_;
+    std::vector<const char*> own_targets_;  ///< names of the method's textures in the graph
+    GraphTexture peel_next_, peel_sum_;
     Targets targets_;
     LightingChanges lighting_;
     GraphTexture skyx_info_;

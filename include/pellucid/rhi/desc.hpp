@@ -55,6 +55,7 @@ struct DeviceInfo {
     std::uint32_t max_texture_size = 0;  ///< [texel] 2D width and height
     std::uint32_t max_array_layers = 0;
     std::uint64_t max_storage_buffer_bytes = 0;
+    bool float32_blending = false;     ///< 32-bit float colour targets can be blended into
     bool int64_atomics = false;        ///< tier T2
     bool pixel_ordering = false;       ///< tier T3: fragment shader interlock
     double timestamp_ns = 0;           ///< [ns] one timestamp tick; 0: no timestamps
@@ -110,6 +111,15 @@ struct TextureDesc {
     std::span<const std::byte> initial = {};
     const char* debug_name = "texture";
 };
+/// [byte] what the levels and layers of a texture hold.
+[[nodiscard]] constexpr std::uint64_t texture_bytes(const TextureDesc& desc) {
+    std::uint64_t bytes = 0;
+    for (std::uint32_t mip = 0; mip < desc.mips; ++mip) {
+        const std::uint64_t w = desc.size.width >> mip, h = desc.size.height >> mip;
+        bytes += (w ? w : 1) * (h ? h : 1) * desc.layers * info(desc.format).bytes;
+    }
+    return bytes;
+}
 
 enum class Filter : std::uint8_t { nearest, linear };
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };

@@ -112,6 +112,7 @@ public:
         info_.max_texture_size = 16384;
         info_.max_array_layers = 2048;
         info_.max_storage_buffer_bytes = std::uint64_t{1} << 31;
+        info_.float32_blending = true;
         info_.timestamp_ns = 1;
     }
     Device(const Device&) = delete;
@@ -121,20 +122,20 @@ public:
         PELLUCID_CHECK(state_.create("make_buffer", desc.debug_name));
         if (desc.size == 0)
             return Error{Errc::invalid_argument, std::string("buffer '") + desc.debug_name + "' has size 0"};
-        std::vector<std::byte> bytes;
-        if (desc.memory != rhi::Memory::device) bytes.resize(desc.size);
-        if (!bytes.empty()) std::copy(desc.initial.begin(), desc.initial.end(), bytes.begin());
-        return buffers_.insert(std::move(bytes));
+        Memory memory{.size = desc.size};
+        if (desc.memory != rhi::Memory::device) memory.mapped.resize(desc.size);
+        if (!memory.mapped.empty()) std::copy(desc.initial.begin(), desc.initial.end(), memory.mapped.begin());
+        return buffers_.insert(std::move(memory));
     }
     std::span<std::byte> mapped(rhi::Buffer buffer) {
-        auto* bytes = buffers_.find(buffer);
-        return bytes ? std::span<std::byte>(*bytes) : std::span<std::byte>{};
+        auto* memory = buffers_.find(buffer);
+        return memory ? std::span<std::byte>(memory->mapped) : std::span<std::byte>{};
     }
     Result<rhi::Texture> make_texture(const rhi::TextureDesc& desc) {
         PELLUCID_CHECK(state_.create("make_texture", desc.debug_name));
         if (desc.size.width == 0 || desc.size.height == 0)
             return Error{Errc::invalid_argument, std::string("texture '") + desc.debug_name + "' has no texels"};
-        return textures_.insert({});
+        return textures_.insert({.size = rhi::texture_bytes(desc), .mapped = {}});
     }
     Result<rhi::Sampler> make_sampler(const rhi::SamplerDesc& desc) {
         PELLUCID_CHECK(state_.create("make_sampler", desc.debug_name));
@@ -203,6 +204,15 @@ public:
     // Beyond the concepts, for tests.
     [[nodiscard]] const std::vector<Call>& calls() const { return state_.calls; }
     void clear_calls() { state_.calls.clear(); }
+    /// [byte] of the buffers and textures that there are.
+    [[nodiscard]] std::uint64_t live_bytes() {
+        std::uint64_t bytes = 0;
+        buffers_.for_each([&](rhi::Buffer, const Memory& m) { bytes += m.size; });
+        textures_.for_each([&](rhi::Texture, const Memory& m) { bytes += m.size; });
+        return bytes;
+    }
+    /// From now on the device says that it is like this.
+    void pretend(const rhi::DeviceInfo& info) { info_ = info; }
     /// The `n`-th creation from now (`make_*` and `upload_*` count) fails with `out_of_memory`; 0: none does.
     void fail_after(std::uint64_t n) { state_.creations_until_failure = n; }
     /// From now on every creation, `begin_frame`, `submit` and `wait` says `device_lost`; objects can still be
@@ -211,6 +221,10 @@ public:
 
 private:
     struct Nothing {};
+    struct Memory {
+        std::uint64_t size = 0;
+        std::vector<std::byte> mapped;
+    };
     template <class Tag, class T>
     void destroy(const char* name, SlotMap<Tag, T>& objects, Handle<Tag> object) {
         state_.note(name, object.bits);
@@ -220,8 +234,8 @@ private:
     State state_;
     Commands commands_{state_};
     rhi::DeviceInfo info_;
-    SlotMap<rhi::BufferTag, std::vector<std::byte>> buffers_;
-    SlotMap<rhi::TextureTag, Nothing> textures_;
+    SlotMap<rhi::BufferTag, Memory> buffers_;
+    SlotMap<rhi::TextureTag, Memory> textures_;
     SlotMap<rhi::SamplerTag, Nothing> samplers_;
     SlotMap<rhi::PipelineTag, Nothing> pipelines_;
     SlotMap<rhi::GroupTag, Nothing> groups_;
