@@ -31,7 +31,7 @@ struct Found {
     }
 };
 
-/// Lists the fragments of two frames, the second one anew, in bands of at most `places`, and walks them.
+/// Lists the fragments twice, the second time anew, in bands of at most `places`, and walks them.
 template <rhi::Backend B>
 Found find(typename B::Device& device, const Scene& scene, Extent2D size, FragmentContent content,
            std::uint64_t places = 0) {
@@ -47,38 +47,36 @@ Found find(typename B::Device& device, const Scene& scene, Extent2D size, Fragme
     rhi::Unique<typename B::Device, rhi::Texture> found;
     rhi::TextureDesc wide{.format = rhi::Format::rgba32_uint, .usage = storage | copy_source};
     const auto walks = stage.target(rhi::Format::r32_uint, storage | attachment | copy_source, "walks");
-    for (int frame = 0; frame < 2; ++frame)
-        stage.frame(scene.cameras.front(), [&](Frame<B>& f) -> Result<void> {
-            const SceneBinding binding = stage.scene().binding();
-            count.record(f.commands(), stage.depth(), binding, stage.scene().translucent());
-            PELLUCID_CHECK(f.flush());
-            for (const gpu::LayerStrip& strip : count.strips()) deepest = std::max(deepest, strip.deepest);
-            PELLUCID_TRY(const bool made, lists.prepare(device, count.strips()));
-            CHECK(made == (frame == 0));
-            if (!found) {
-                wide.size = {2 * size.width * deepest, size.height};
-                PELLUCID_OWN(found, device, device.make_texture(wide));
-            }
-            const rhi::GroupDesc desc = lists.walker_group({{0, found}, {5, walks}}, {}, {}, "walker");
-            rhi::Unique<typename B::Device, rhi::Group> group;
-            PELLUCID_OWN(group, device, device.make_group(desc));
-            rhi::Unique<typename B::Device, rhi::Pipeline> pipelines[PELLUCID_LISTS_CLASS_COUNT];
-            for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
-                const rhi::SpecConstant constants[] = {{2, deepest}, {3, c}};
-                PELLUCID_OWN(pipelines[c], device,
-                             device.make_pipeline(rhi::ComputePipelineDesc{
-                                 .compute = lists.lit_later() ? &shaders::test_lists_surfaces_comp
-                                                              : &shaders::test_lists_colors_comp,
-                                 .constants = constants,
-                                 .pass_group = desc.layout,
-                                 .scene_group = lists.lit_later() ? scene_group_layout() : rhi::GroupLayout{},
-                                 .push_bytes = sizeof(gpu::ListBand),
-                                 .debug_name = "walker"}));
-            }
+    stage.frame(scene.cameras.front(), [&](Frame<B>& f) -> Result<void> {
+        const SceneBinding binding = stage.scene().binding();
+        count.record(f.commands(), stage.depth(), binding, stage.scene().translucent());
+        PELLUCID_CHECK(f.flush());
+        for (const gpu::LayerStrip& strip : count.strips()) deepest = std::max(deepest, strip.deepest);
+        PELLUCID_TRY(const bool made, lists.prepare(device, count.strips()));
+        CHECK(made);
+        wide.size = {2 * size.width * deepest, size.height};
+        PELLUCID_OWN(found, device, device.make_texture(wide));
+        const rhi::GroupDesc desc = lists.walker_group({{0, found}, {5, walks}}, {}, {}, "walker");
+        rhi::Unique<typename B::Device, rhi::Group> group;
+        PELLUCID_OWN(group, device, device.make_group(desc));
+        rhi::Unique<typename B::Device, rhi::Pipeline> pipelines[PELLUCID_LISTS_CLASS_COUNT];
+        for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
+            const rhi::SpecConstant constants[] = {{2, deepest}, {3, c}};
+            PELLUCID_OWN(pipelines[c], device,
+                         device.make_pipeline(rhi::ComputePipelineDesc{
+                             .compute = lists.lit_later() ? &shaders::test_lists_surfaces_comp
+                                                          : &shaders::test_lists_colors_comp,
+                             .constants = constants,
+                             .pass_group = desc.layout,
+                             .scene_group = lists.lit_later() ? scene_group_layout() : rhi::GroupLayout{},
+                             .push_bytes = sizeof(gpu::ListBand),
+                             .debug_name = "walker"}));
+        }
+        const rhi::Pipeline each[] = {pipelines[0], pipelines[1], pipelines[2], pipelines[3]};
+        for (int again = 0; again < 2; ++again) {  // the second one starts anew
             auto& cmd = f.commands();
             cmd.begin_render({.colors = {{.texture = walks}}, .size = size, .name = "walks"});
             cmd.end_render();
-            const rhi::Pipeline each[] = {pipelines[0], pipelines[1], pipelines[2], pipelines[3]};
             for (const StripBand& band : lists.bands()) {
                 lists.record(cmd, band, stage.depth(), binding, stage.scene().translucent());
                 lists.walk(
@@ -86,8 +84,9 @@ Found find(typename B::Device& device, const Scene& scene, Extent2D size, Fragme
                     {rhi::use(found, rhi::Access::storage_write), rhi::use(walks, rhi::Access::storage_read_write)},
                     each, group, 0, "walker");
             }
-            return f.flush();  // the group and the pipelines go
-        });
+        }
+        return f.flush();  // the group and the pipelines go
+    });
     out.bands = lists.bands().size();
     out.bytes = lists.bytes();
     out.walks = stage.template read<std::uint32_t>(walks, rhi::Format::r32_uint);

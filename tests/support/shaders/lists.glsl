@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Walks the lists of fragments and copies what it finds: two texels a fragment, nearest first, and for each pixel which
 // class walked it and how often.
-#define WINDOW 16
-#define SORT(keys) SORT16(keys, 0)
-#define BITONIC(keys) BITONIC16(keys, 0)
+#define WINDOW 4
+#define SORT(keys) SORT4(keys, 0)
+#define BITONIC(keys) BITONIC4(keys, 0)
 #include "common/fragment_lists.glsl"
 
 PASS_IMAGE(0, rgba32ui) writeonly uimage2D found;
