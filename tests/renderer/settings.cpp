@@ -76,7 +76,7 @@ TEMPLATE_LIST_TEST_CASE("every method draws at another size once the last render
     for (const Transparency method : all_methods()) {
         INFO(name(method));
         ImageF first;
-        for (const Extent2D size : {Extent2D{64, 64}, {97, 33}, {128, 128}, {64, 64}}) {
+        for (const Extent2D size : {Extent2D{64, 64}, {97, 33}, {64, 64}}) {
             const auto renderer = Renderer<TestType>::create(*device, scene, sized(size, method));
             if (!renderer && renderer.error().code == Errc::unsupported) break;
             REQUIRE(renderer);
@@ -97,6 +97,7 @@ TEMPLATE_LIST_TEST_CASE("what was composited is told by audited methods that can
     const Scene scene = make_cyclic_triangles();
     for (const Transparency method : none_and_all_methods())
         for (const bool audit : {false, true}) {
+            if (!audit && facts(method).audit == Audit::nothing) continue;  // not even when it is audited: below
             RenderSettings settings = sized({24, 24}, method);
             settings.audit = audit;
             const auto renderer = must(Renderer<TestType>::create(*device, scene, settings));
