@@ -92,7 +92,7 @@ TEMPLATE_LIST_TEST_CASE("hard cases: 64, 128 and 512 thin sheets", "[gpu]", Back
     if (!device) return;
     for (const std::uint32_t count : {64u, 128u, 512u})
         for (const float alpha : {1.0f / 255.0f, 0.02f}) {
-            if (count == 512 && alpha == 0.02f) continue;  // four thousandths of a percent get through
+            if (count == 512 && alpha == 0.02f) continue;  // peeling so many takes seconds: once is enough
             const KnownScene known = equal_sheets(count, alpha, {16, 8});
             check_known(known);
             check_exact<TestType>(*device, known);
