@@ -80,7 +80,7 @@ KnownScene nothing() {
 TEMPLATE_LIST_TEST_CASE("hard cases: pictures whose sides are no multiple of 8", "[gpu]", Backends) {
     const auto device = make_device<TestType>();
     if (!device) return;
-    for (const Extent2D size : {Extent2D{1, 1}, {7, 5}, {65, 33}, {4, 1}, {1, 9}, {257, 66}}) {
+    for (const Extent2D size : {Extent2D{1, 1}, {7, 5}, {1, 9}, {257, 66}}) {
         const KnownScene known = sheets(size);
         check_known(known);
         check_exact<TestType>(*device, known);
