@@ -235,3 +235,68 @@ TEST_CASE("reference: second texture coordinates, emission and occlusion", "[cpu
     scene.materials[0].unlit = true;
     CHECK(must(render(scene, flat_camera(), {.size = {8, 8}, .ambient = {1, 1, 1}})).radiance.texel(6, 3)[0] == 0.5f);
 }
+
+TEST_CASE("reference: premultiplied radiance is added whole, whatever the alpha", "[cpu]") {
+    const glm::dvec3 background{0.25, 0.5, 4};
+    const auto draw = [&](const Scene& scene) {
+        const Picture p = must(render(scene, flat_camera(), {.size = {4, 4}, .background = background}));
+        CHECK(*p.layers.texel(1, 1) == scene.instances.size());
+        const float* v = p.radiance.texel(1, 1);
+        return glm::dvec3(v[0], v[1], v[2]);
+    };
+    for (const double alpha : {0.0, 0.25, 1.0}) {
+        // Unlit, then emitted: 2, 0.5 and 0.125 of its own, 1 - alpha of what is behind.
+        for (const bool unlit : {true, false}) {
+            Material m =
+                flat({unlit ? 2.0f : 0.0f, unlit ? 0.5f : 0.0f, unlit ? 0.125f : 0.0f, alpha}, AlphaMode::blend);
+            m.unlit = unlit;
+            if (!unlit) m.emissive = {2, 0.5f, 0.125f};
+            m.premultiplied = true;
+            CAPTURE(alpha, unlit);
+            Scene scene;
+            add(scene, quad(), m);
+            CHECK(draw(scene) == glm::dvec3(2, 0.5, 0.125) + (1 - alpha) * background);
+            // Not premultiplied, the radiance is multiplied by alpha.
+            scene.materials[0].premultiplied = false;
+            CHECK(draw(scene) == alpha * glm::dvec3(2, 0.5, 0.125) + (1 - alpha) * background);
+            // In an opaque material the word means nothing.
+            scene.materials[0].premultiplied = true;
+            scene.materials[0].alpha_mode = AlphaMode::opaque;
+            const Picture p = must(render(scene, flat_camera(), {.size = {4, 4}, .background = background}));
+            CHECK(glm::dvec3(p.radiance.texel(1, 1)[0], p.radiance.texel(1, 1)[1], p.radiance.texel(1, 1)[2]) ==
+                  glm::dvec3(2, 0.5, 0.125));
+        }
+    }
+}
+
+TEST_CASE("reference: additive light in front of, between and behind glass", "[cpu]") {
+    Material light = flat({0.5f, 2, 0.125f, 0}, AlphaMode::blend);
+    light.premultiplied = true;
+    const Material glass = flat({1, 0.5f, 0.25f, 0.5f}, AlphaMode::blend);
+    const glm::dvec3 l(0.5, 2, 0.125), g = 0.5 * glm::dvec3(1, 0.5, 0.25), background(1, 2, 4);
+    struct Case {
+        std::vector<const Material*> far_to_near;
+        glm::dvec3 wanted;
+    };
+    const Case cases[] = {{{&light}, l + background},
+                          {{&light, &light, &light}, 3.0 * l + background},
+                          {{&glass, &light}, l + g + 0.5 * background},
+                          {{&light, &glass}, g + 0.5 * l + 0.5 * background},
+                          {{&glass, &light, &glass}, g + 0.5 * l + 0.5 * g + 0.25 * background}};
+    for (const Case& c : cases)
+        for (const bool coplanar : {false, true}) {  // then the later one is in front
+            Scene scene;
+            for (std::size_t i = 0; i < c.far_to_near.size(); ++i)
+                add(scene, quad(), *c.far_to_near[i], at(0, 0, coplanar ? 0.0 : static_cast<double>(i)));
+            const Picture p = must(render(scene, flat_camera(), {.size = {2, 2}, .background = background}));
+            for (int k = 0; k < 3; ++k) CHECK(p.radiance.texel(0, 1)[k] == Approx(c.wanted[k]).epsilon(1e-7));
+            const auto fragments =
+                must(reference::fragments_at(scene, flat_camera(), {.size = {2, 2}, .background = background}, 0, 1));
+            REQUIRE(fragments.size() == c.far_to_near.size());
+            for (std::size_t i = 0; i < fragments.size(); ++i) {
+                const bool glowing = c.far_to_near[fragments.size() - 1 - i] == &light;
+                CHECK(fragments[i].alpha == (glowing ? 0.0 : 0.5));
+                CHECK(fragments[i].premultiplied == (glowing ? l : g));
+            }
+        }
+}

@@ -167,3 +167,37 @@ TEST_CASE("materials carry their factors and flags", "[cpu]") {
     m.alpha_mode = AlphaMode::blend;
     CHECK((gpu_material(m, {}).flags & PELLUCID_MATERIAL_BLEND) != 0u);
 }
+
+TEST_CASE("premultiplied materials carry their flag, beside all others", "[cpu]") {
+    Material m{.alpha_mode = AlphaMode::blend, .premultiplied = true};
+    CHECK(gpu_material(m, {}).flags == (PELLUCID_MATERIAL_BLEND | PELLUCID_MATERIAL_PREMULTIPLIED));
+    m.base_color = {0.5f, 4, 0.25f, 0};  // what a shader multiplies is left to it
+    const gpu::MaterialRecord r = gpu_material(m, {});
+    CHECK(r.base_color.x == 0.5f);
+    CHECK(r.base_color.y == 4.0f);
+    CHECK(r.base_color.w == 0.0f);
+    m.double_sided = m.unlit = true;
+    CHECK(gpu_material(m, {}).flags == (PELLUCID_MATERIAL_BLEND | PELLUCID_MATERIAL_PREMULTIPLIED |
+                                        PELLUCID_MATERIAL_DOUBLE_SIDED | PELLUCID_MATERIAL_UNLIT));
+    m.premultiplied = false;
+    CHECK((gpu_material(m, {}).flags & PELLUCID_MATERIAL_PREMULTIPLIED) == 0u);
+}
+
+TEST_CASE("triangles once more, the last one first, each with its corners in order", "[cpu]") {
+    std::vector<std::uint32_t> indices{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+    const MeshPlacement p{.vertices = 12, .indices = 12};
+    append_reversed_triangles(indices);
+    REQUIRE(indices.size() == 24);
+    const std::uint32_t wanted[] = {9, 10, 11, 6, 7, 8, 3, 4, 5, 0, 1, 2};
+    for (std::size_t i = 0; i < 12; ++i) {
+        CHECK(indices[i] == i);
+        CHECK(indices[12 + i] == wanted[i]);
+    }
+    // A range of triangles, reversed, is a range: [3, 9) becomes 6 7 8, 3 4 5.
+    CHECK(p.reversed_index(3, 6) == 15);
+    CHECK(p.reversed_index(0, 12) == 12);
+    CHECK(p.reversed_index(9, 3) == 12);
+    std::vector<std::uint32_t> none;
+    append_reversed_triangles(none);
+    CHECK(none.empty());
+}

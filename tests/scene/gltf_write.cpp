@@ -118,3 +118,26 @@ TEST_CASE("scenes that break their own rules are not written", "[cpu][gltf]") {
     scene.meshes[0].material = 1;
     CHECK(message().find("has material 1, the scene has 1") != std::string::npos);
 }
+
+TEST_CASE("a premultiplied material is refused with a sentence: glTF cannot say it", "[cpu][gltf]") {
+    const TemporaryFolder folder;
+    Scene scene;
+    scene.materials.resize(3);
+    scene.materials[2].alpha_mode = AlphaMode::blend;
+    scene.materials[2].name = "flame";
+    scene.meshes = {make_cube(1)};
+    scene.instances = {{0, glm::dmat4(1.0)}};
+    for (const char* name : {"a.glb", "a.gltf"}) {
+        scene.materials[2].premultiplied = true;
+        const auto written = write_gltf(folder / name, scene);
+        REQUIRE_FALSE(written);
+        CHECK(written.error().code == Errc::invalid_argument);
+        const std::string& message = written.error().message;
+        INFO(message);
+        CHECK(message.find(folder / name) != std::string::npos);
+        CHECK(message.find("material 2 (\"flame\") is premultiplied") != std::string::npos);
+        CHECK_FALSE(std::filesystem::exists(folder / name));
+        scene.materials[2].premultiplied = false;
+        CHECK(write_gltf(folder / name, scene));
+    }
+}

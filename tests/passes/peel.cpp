@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: MIT
+// Exact depth peeling: how many layers it finds, where it stops, and what it leaves in single precision.
+#include <pellucid/passes/peel.hpp>
+#include "support/known_scenes.hpp"
+#include "support/pass_stage.hpp"
+
+using namespace pellucid;
+using namespace pellucid::test;
+
+namespace {
+
+template <rhi::Backend B>
+class Peeled {
+public:
+    PassStage<B> stage;
+
+    Peeled(typename B::Device& device, const Scene& scene, typename PassStage<B>::Setup setup, PeelDesc desc = {})
+        : stage(device, scene, (setup.method = Transparency::peel, setup)), device_(&device) {
+        using enum rhi::TextureUsage;
+        next_ = stage.target(rhi::Format::r32_float, attachment | sampled, "next");
+        layer_ = stage.target(rhi::Format::d32_float, attachment, "layer");
+        sum_ = stage.target(rhi::Format::rgba32_float, attachment | sampled | copy_source, "sum");
+        count_ = stage.target(rhi::Format::r32_float, attachment | copy_source, "count");
+        desc.fragments = stage.fragments();
+        pass.emplace(must(PeelPass<B>::create(device, desc,
+                                              {.hdr = stage.hdr_target(),
+                                               .opaque = stage.depth(),
+                                               .next = next_,
+                                               .layer = layer_,
+                                               .sum = sum_,
+                                               .count = count_})));
+    }
+
+    ImageF draw(const Camera& camera) {
+        submissions = 0;
+        stage.frame(camera, [&](Frame<B>& f) -> Result<void> {
+            pass->begin(f.commands());
+            for (bool more = true; more; ++submissions) {
+                pass->record_layers(f.commands(), stage.scene().binding(), stage.scene().translucent(),
+                                    stage.scene().translucent_reversed());
+                PELLUCID_CHECK(f.flush());
+                PELLUCID_TRY(more, pass->more(*device_));
+            }
+            pass->composite(f.commands());
+            return {};
+        });
+        return stage.hdr();
+    }
+    /// Colour and transmittance of all layers.
+    ImageF sum() { return stage.template read<float>(sum_, rhi::Format::rgba32_float, 4); }
+
+    std::optional<PeelPass<B>> pass;
+    int submissions = 0;  ///< of layers in the last frame
+
+private:
+    typename B::Device* device_;
+    rhi::Unique<typename B::Device, rhi::Texture> next_, layer_, sum_, count_;
+};
+
+constexpr glm::vec4 kinds[] = {{1, 0.25f, 0.5f, 0.25f}, {0.25f, 1, 0.75f, 0.125f}, {0.5f, 0.125f, 1, 0.375f}};
+
+/// `count` sheets, sheet i in slot 1 + i, as triangles of one mesh; `layers` nearest first.
+Scene sheets(std::uint32_t count, std::vector<Layer>& layers) {
+    std::vector<Sheet> out;
+    layers.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        out.push_back({.slot = 1 + i, .color = kinds[i % 3]});
+        layers.insert(layers.begin(), straight(kinds[i % 3]));
+    }
+    return make_sheets(out);
+}
+
+}  // namespace
+
+TEMPLATE_LIST_TEST_CASE("peeling finds as many layers as there are, in one batch or several", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    const glm::dvec3 background{0.25, 0.5, 0.125};
+    // A batch starts with 4 layers and doubles up to 64; one more is needed to see that nothing is left.
+    for (const std::uint32_t count : {1u, 3u, 4u, 5u, 11u, 12u, 13u, 130u}) {
+        std::vector<Layer> layers;
+        const Scene scene = sheets(count, layers);
+        Peeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)});
+        const KnownScene known = uniform_scene("sheets", scene, {16, 8}, known_pixel(layers, background));
+        ImageF first;
+        for (int frame = 0; frame < 2; ++frame) {
+            const ImageF got = peeled.draw(scene.cameras.front());
+            const Verdict verdict = judge(got, known, Transparency::peel, device->info().software);
+            INFO(count << " sheets, frame " << frame << ": " << verdict.first);
+            CHECK(verdict.outside == 0);
+            CHECK(peeled.pass->layers() == count);
+            CHECK_FALSE(peeled.pass->truncated());
+            if (frame == 0) first = got;
+            CHECK(different(got, first) == 0);
+            if (frame == 1 && count < 64) CHECK(peeled.submissions == 1);  // the first frame taught it
+            if (count == 130) CHECK(peeled.submissions > 1);
+        }
+        // What gets through, to single precision: two roundings a layer, u = 2^-24 each.
+        double through = 1;
+        for (const Layer& l : layers) through *= 1 - l.alpha;
+        const float got = peeled.sum().texel(5, 5)[3];
+        CHECK(std::abs(got - through) <= 2 * count * 0x1p-24 * through * 1.001);
+    }
+}
+
+TEMPLATE_LIST_TEST_CASE("peeling stops at max_layers depths, and says so where that left something out", "[gpu]",
+                        Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    // Six depths; three sheets share the second and the fifth one.
+    std::vector<Sheet> all;
+    std::vector<std::vector<Layer>> depths;  // nearest first
+    for (std::uint32_t d = 0; d < 6; ++d) {
+        depths.emplace_back();
+        for (std::uint32_t i = 0; i < (d % 3 == 1 ? 3u : 1u); ++i) {
+            all.push_back({.slot = 100 - 10 * d, .color = kinds[(d + i) % 3]});
+            depths.back().insert(depths.back().begin(), straight(kinds[(d + i) % 3]));
+        }
+    }
+    const Scene scene = make_sheets(all);
+    const glm::dvec3 background{0.25, 0.5, 0.125};
+    for (std::uint32_t most = 1; most <= 8; ++most) {
+        std::vector<Layer> layers;
+        for (std::uint32_t d = 0; d < std::min(most, 6u); ++d)
+            layers.insert(layers.end(), depths[d].begin(), depths[d].end());
+        Peeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)},
+                                {.max_layers = most});
+        const KnownScene known = uniform_scene("capped", scene, {16, 8}, known_pixel(layers, background));
+        for (int frame = 0; frame < 2; ++frame) {
+            const Verdict verdict =
+                judge(peeled.draw(scene.cameras.front()), known, Transparency::peel, device->info().software);
+            INFO("at most " << most << ", frame " << frame << ": " << verdict.first);
+            CHECK(verdict.outside == 0);
+            CHECK(peeled.pass->layers() == std::min(most, 6u));
+            CHECK(peeled.pass->truncated() == (most < 6));
+        }
+    }
+}
+
+TEMPLATE_LIST_TEST_CASE("what is behind something opaque is no layer, and leaving it out truncates nothing", "[gpu]",
+                        Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    std::vector<Layer> layers;
+    const Scene scene = sheets(5, layers);  // in slots 1 to 5
+    layers.resize(2);
+    const glm::dvec3 opaque{0.25, 0.5, 0.125};
+    const KnownScene known = uniform_scene("half hidden", scene, {16, 8}, known_pixel(layers, opaque));
+    for (const std::uint32_t most : {0u, 2u}) {
+        Peeled<TestType> peeled(*device, scene,
+                                {.size = {16, 8}, .background = glm::vec3(opaque), .opaque_depth = 3.5f / 256},
+                                {.max_layers = most});
+        const Verdict verdict =
+            judge(peeled.draw(scene.cameras.front()), known, Transparency::peel, device->info().software);
+        INFO("at most " << most << ": " << verdict.first);
+        CHECK(verdict.outside == 0);
+        CHECK(peeled.pass->layers() == 2);
+        CHECK_FALSE(peeled.pass->truncated());
+    }
+}
+
+TEMPLATE_LIST_TEST_CASE("peeling ends where no more gets through than asked", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    std::vector<Sheet> all;
+    std::vector<Layer> layers;
+    for (std::uint32_t i = 0; i < 20; ++i) {
+        const glm::vec4 color{i % 2 ? 1.0f : 0.25f, 0.5f, i % 3 ? 0.125f : 1.0f, 0.5f};
+        all.push_back({.slot = 1 + i, .color = color});
+        layers.insert(layers.begin(), straight(color));
+    }
+    const Scene scene = make_sheets(all);
+    const glm::dvec3 background{0.25, 0.5, 0.125}, truth = over(layers, background);
+    for (const float least : {0.0f, 0.25f, 0.24f, 0.01f, 0.6f}) {  // 2^-2 itself is "no more"
+        std::vector<Layer> some;
+        for (double through = 1; some.size() < layers.size() && through > least; through *= 0.5)
+            some.push_back(layers[some.size()]);
+        Peeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)},
+                                {.min_transmittance = least});
+        const ImageF got = peeled.draw(scene.cameras.front());
+        const KnownScene known = uniform_scene("ended", scene, {16, 8}, known_pixel(some, background));
+        const Verdict verdict = judge(got, known, Transparency::peel, device->info().software);
+        INFO("least " << least << ", " << some.size() << " layers: " << verdict.first);
+        CHECK(verdict.outside == 0);
+        CHECK(peeled.pass->layers() == some.size());
+        for (int c = 0; c < 3; ++c) CHECK(std::abs(got.texel(3, 3)[c] - truth[c]) <= least + 0x1p-10);
+    }
+}
+
+TEMPLATE_LIST_TEST_CASE("peeling follows the camera from frame to frame", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    const Scene scene = make_linked_chain();
+    const Camera first = scene.cameras.front(), other{.world_from_view = look_at({8, 3, 1}, {0, 0, 0})};
+    const Camera away{.world_from_view = look_at({0, 0, 50}, {0, 0, 100})};
+    const typename PassStage<TestType>::Setup setup{.size = {64, 64}, .background = {0.25f, 0.5f, 0.125f}};
+    Peeled<TestType> peeled(*device, scene, setup);
+    const ImageF a = peeled.draw(first);
+    const std::uint32_t layers = peeled.pass->layers();
+    CHECK(layers >= 4);
+    const ImageF b = peeled.draw(other);
+    CHECK(peeled.pass->layers() > layers);  // along the necklace
+    (void)peeled.draw(away);
+    CHECK(peeled.pass->layers() == 0);
+    CHECK(different(peeled.draw(first), a) == 0);
+    CHECK(peeled.pass->layers() == layers);
+    CHECK(different(Peeled<TestType>(*device, scene, setup).draw(other), b) == 0);
+}
