@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Exact depth peeling: how many layers it finds, where it stops, and what it leaves in single precision.
+#include <pellucid/passes/layer_areas.hpp>
+#include <pellucid/passes/layer_count.hpp>
 #include <pellucid/passes/peel.hpp>
 #include "support/known_scenes.hpp"
 #include "support/pass_stage.hpp"
@@ -31,10 +33,11 @@ public:
                                                .count = count_})));
     }
 
-    ImageF draw(const Camera& camera) {
+    /// `areas`: what is known of where the layers are.
+    ImageF draw(const Camera& camera, const std::vector<rhi::Rect>& areas = {}) {
         submissions = 0;
         stage.frame(camera, [&](Frame<B>& f) -> Result<void> {
-            pass->begin(f.commands());
+            pass->begin(f.commands(), areas);
             for (bool more = true; more; ++submissions) {
                 pass->record_layers(f.commands(), stage.scene().binding(), stage.scene().translucent(),
                                     stage.scene().translucent_reversed());
@@ -45,6 +48,14 @@ public:
             return {};
         });
         return stage.hdr();
+    }
+    std::vector<rhi::Rect> count_areas(const Camera& camera, Extent2D size) {
+        auto count = must(LayerCountPass<B>::create(*device_, stage.fragments()));
+        stage.frame(camera, [&](Frame<B>& f) -> Result<void> {
+            count.record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
+            return {};
+        });
+        return layer_areas(count.tile_depths(), size);
     }
     /// Colour and transmittance of all layers.
     ImageF sum() { return stage.template read<float>(sum_, rhi::Format::rgba32_float, 4); }
@@ -205,4 +216,30 @@ TEMPLATE_LIST_TEST_CASE("peeling follows the camera from frame to frame", "[gpu]
     CHECK(different(peeled.draw(first), a) == 0);
     CHECK(peeled.pass->layers() == layers);
     CHECK(different(Peeled<TestType>(*device, scene, setup).draw(other), b) == 0);
+}
+
+TEMPLATE_LIST_TEST_CASE("drawing layers only where counts say there are any changes no bit", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    const Extent2D size{72, 52};
+    for (const Scene& scene : {make_linked_chain(), make_intersecting_planes(), make_random_quads(24)})
+        for (const std::uint32_t most : {0u, 3u}) {
+            const typename PassStage<TestType>::Setup setup{.size = size, .background = {0.25f, 0.5f, 0.125f}};
+            const Camera& camera = scene.cameras.front();
+            Peeled<TestType> whole(*device, scene, setup, {.max_layers = most});
+            Peeled<TestType> bounded(*device, scene, setup, {.max_layers = most});
+            const std::vector<rhi::Rect> areas = bounded.count_areas(camera, size);
+            REQUIRE(areas.size() > 1);
+            REQUIRE((areas.back().width < size.width || areas.back().height < size.height));
+            const ImageF expected = whole.draw(camera);
+            CHECK(different(bounded.draw(camera, areas), expected) == 0);
+            CHECK(different(bounded.sum(), whole.sum()) == 0);
+            CHECK(bounded.pass->layers() == whole.pass->layers());
+            CHECK(bounded.pass->truncated() == whole.pass->truncated());
+            // Where no two fragments of the deepest pixel have the same depth, the counts are all there is to know.
+            if (most == 0) CHECK(bounded.pass->layers() <= areas.size());
+            // Rectangles that leave something out do change the picture: they are heeded.
+            std::vector<rhi::Rect> fewer(areas.begin(), areas.begin() + 1);
+            CHECK(different(bounded.draw(camera, fewer), expected) > 0);
+        }
 }
