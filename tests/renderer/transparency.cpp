@@ -49,6 +49,16 @@ std::vector<Sample> samples() {
     return out;
 }
 
+/// One of many surfaces, one that no order of objects gets right, one that is lit: for what takes many renderers.
+std::vector<Sample> few_samples() {
+    std::vector<Sample> out = samples();
+    std::erase_if(out, [](const Sample& s) {
+        return s.name != "24 quads, seed 7" && s.name != "cycle" && s.name != "lit glass";
+    });
+    REQUIRE(out.size() == 3);
+    return out;
+}
+
 ImageF without_alpha(const ImageF& image) {
     ImageF out(image.width, image.height, 3);
     for (std::size_t i = 0; i < out.data.size() / 3; ++i)
@@ -138,7 +148,7 @@ TEMPLATE_LIST_TEST_CASE("transparency: sample scenes against the reference rende
 TEMPLATE_LIST_TEST_CASE("transparency: no bit depends on the order of instances", "[gpu]", Backends) {
     const auto device = make_device<TestType>();
     if (!device) return;
-    for (Sample& sample : samples()) {
+    for (Sample& sample : few_samples()) {
         std::vector<std::vector<ImageF>> pictures(exact_without_light.size());
         std::vector<Instance>& instances = sample.scene.instances;
         std::mt19937 random(3);
@@ -167,7 +177,7 @@ TEST_CASE("transparency: Vulkan and OpenGL draw sample scenes alike", "[gpu]") {
     const auto vulkan = make_device<Vulkan>();
     const auto opengl = make_device<OpenGL>();
     if (!vulkan || !opengl) return;
-    for (const Sample& sample : samples())
+    for (const Sample& sample : few_samples())
         for (const Transparency method : exact_methods)
             for (const bool exact : {true, false}) {
                 if (!exact && sample.scene.lights.empty()) continue;  // it is lighting that has two builds
