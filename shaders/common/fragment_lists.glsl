@@ -9,7 +9,7 @@
 #include "common/sort_network.glsl"
 
 layout(local_size_x = PELLUCID_LAYERS_TILE, local_size_y = PELLUCID_LAYERS_TILE) in;
-SPEC_CONSTANT(3, CLASS, 0u);
+SPEC_CONSTANT(3, FEW_TURNS, 0u);  // 1: two blocks a turn, because the driver limits turns: see `walk_turns`
 PASS_IMAGE(PELLUCID_LAYERS_COUNTS, r32f) readonly image2D counts;
 PASS_IMAGE(PELLUCID_LISTS_CURSORS, r32ui) readonly uimage2D cursors;
 PASS_IMAGE(PELLUCID_LISTS_NODES, rgba32ui) readonly uimage2D nodes;
@@ -34,8 +34,8 @@ Key load_key(uint first, uint i) {
 // The pixel of this invocation; false where there is none.
 bool find_pixel(out ivec2 at) {
     uint index = gl_WorkGroupID.y * PELLUCID_LISTS_COLUMNS + gl_WorkGroupID.x;
-    if (index >= classes[CLASS].tiles) return false;
-    uint tile = tiles[CLASS * band.tile_stride + index];
+    if (index >= classes[band.tile_class].tiles) return false;
+    uint tile = tiles[band.tile_class * band.tile_stride + index];
     at = ivec2(uvec2(tile & 0xFFFFu, tile >> 16u) * PELLUCID_LAYERS_TILE + gl_LocalInvocationID.xy);
     return true;
 }
@@ -71,10 +71,12 @@ void walk(ivec2 at, uint count) {
         for (int w = 0; w < WINDOW; ++w) keys[w] = NOTHING;
         uint start = 0u;
         do {
-            // Two blocks a turn: software drivers limit turns, see `walk_turns`.
             gather(keys, first, start, count, last);
-            gather(keys, first, start + uint(WINDOW), count, last);
-            start += 2u * uint(WINDOW);
+            start += uint(WINDOW);
+            if (FEW_TURNS != 0u) {
+                gather(keys, first, start, count, last);
+                start += uint(WINDOW);
+            }
         } while (start < count);
 #else
         for (int w = 0; w < WINDOW; ++w) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Dual depth peeling: two layers a pass, from both ends, exact but for fragments of equal depth.
 #include <pellucid/passes/dual_peel.hpp>
+#include <pellucid/passes/layer_count.hpp>
 #include "support/known_scenes.hpp"
 #include "support/pass_stage.hpp"
 
@@ -16,7 +17,8 @@ public:
 
     DualPeeled(typename B::Device& device, const Scene& scene, typename PassStage<B>::Setup setup,
                std::uint32_t max_passes = 0)
-        : stage(device, scene, (setup.method = Transparency::dual_peel, setup)), device_(&device) {
+        : stage(device, scene, (setup.method = Transparency::dual_peel, setup)) {
+        count_.emplace(must(LayerCountPass<B>::create(device, stage.fragments())));
         using enum rhi::TextureUsage;
         using enum rhi::Format;
         for (std::size_t i = 0; i < 2; ++i) {
@@ -36,13 +38,9 @@ public:
 
     ImageF draw(const Camera& camera) {
         stage.frame(camera, [&](Frame<B>& f) -> Result<void> {
-            pass->begin(f.commands(), stage.scene().binding(), stage.scene().translucent());
-            for (bool more = true; more;) {
-                pass->record_passes(f.commands(), stage.scene().binding(), stage.scene().translucent());
-                PELLUCID_CHECK(f.flush());
-                PELLUCID_TRY(more, pass->more(*device_));
-            }
-            pass->composite(f.commands());
+            count_->record(f.commands(), stage.depth(), stage.scene().binding(), stage.scene().translucent());
+            PELLUCID_CHECK(f.flush());
+            pass->record(f.commands(), stage.scene().binding(), stage.scene().translucent(), count_->totals().deepest);
             return {};
         });
         return stage.hdr();
@@ -51,7 +49,7 @@ public:
     std::optional<DualPeelPass<B>> pass;
 
 private:
-    typename B::Device* device_;
+    std::optional<LayerCountPass<B>> count_;
     rhi::Unique<typename B::Device, rhi::Texture> range_[2], front_[2], layer_, back_;
 };
 
@@ -84,6 +82,7 @@ TEMPLATE_LIST_TEST_CASE("dual peeling takes two layers a pass until none is left
             INFO(count << " sheets, frame " << frame << ": " << verdict.first);
             CHECK(verdict.outside == 0);
             CHECK(peeled.pass->passes() == (count + 1) / 2);
+            CHECK_FALSE(peeled.pass->truncated());
         }
     }
 }
@@ -104,6 +103,7 @@ TEMPLATE_LIST_TEST_CASE("dual peeling with too few passes lacks the layers in th
         INFO("at most " << most << " passes: " << verdict.first);
         CHECK(verdict.outside == 0);
         CHECK(peeled.pass->passes() == std::min(most, 5u));
+        CHECK(peeled.pass->truncated() == (most < 5));
     }
 }
 

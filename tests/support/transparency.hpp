@@ -57,6 +57,11 @@ enum class Kept : std::uint8_t {
     surfaces  ///< FragmentContent::surfaces: radiance and alpha, multiplied afterwards
 };
 
+/// Methods whose last step is a blend into the picture; others read it and write it.
+[[nodiscard]] constexpr bool blends_over_picture(Transparency method) {
+    return method == Transparency::peel || method == Transparency::dual_peel;
+}
+
 /// Largest and least result of `method` for these layers, nearest first.  Everything is >= 0, so both ends come from
 /// the ends of what each operation may give, u = 2^-24 being half a unit in the last place of binary32:
 ///   shading: factors, interpolated vertex colours and alpha are multiplied, (1 ± 8u); alpha itself (1 ± 4u);
@@ -66,7 +71,9 @@ enum class Kept : std::uint8_t {
 ///   each layer: C + T c and T (1 - a) are two operations each, (1 ± 2u); dual_peel keeps 1 - T instead of T, which
 ///     rounds by up to u three times a layer, whatever T is;
 ///   the end: C + T behind, two operations; then binary16, limited to 65504: toward zero on software drivers, to a
-///     neighbour elsewhere, a unit being 2^-10 of the value or 2^-24.
+///     neighbour elsewhere, a unit being 2^-10 of the value or 2^-24.  Where the fixed function blends into binary16,
+///     hardware may hold what it blends in that format too (Vulkan asks for the target's precision, no more): C and T
+///     lose a unit each before (seen on NVIDIA H100).
 /// `behind` must be held by binary16.
 [[nodiscard]] inline Window window(std::span<const Layer> layers, const glm::dvec3& behind, Transparency method,
                                    Kept kept, bool software) {
@@ -95,6 +102,10 @@ enum class Kept : std::uint8_t {
     }
     w.lower = (w.lower + least * behind) * (1 - 2 * u);
     w.upper = (w.upper + most * behind) * (1 + 2 * u);
+    if (!software && blends_over_picture(method)) {
+        w.lower = w.lower * (1 - 0x1p-10) - 0x1p-24;
+        w.upper = w.upper * (1 + 0x1p-10) + 0x1p-24;
+    }
     w.lower = w.lower * (1 - 0x1p-10) - 0x1p-24;
     if (!software) w.upper = w.upper * (1 + 0x1p-10) + 0x1p-24;
     return {glm::min(w.lower, most_radiance), glm::min(w.upper, most_radiance)};

@@ -35,7 +35,7 @@ struct ListBand {
     uint first_strip;
     uint tile_stride;         // places in a class's list
     float min_transmittance;  // below it a pixel is done
-    uint reserved;
+    uint tile_class;          // that is walked
 };
 PELLUCID_GPU_SIZE(ListBand, 16)
 PELLUCID_GPU_END

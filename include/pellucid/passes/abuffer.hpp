@@ -98,13 +98,14 @@ Result<void> AbufferPass<B>::make_pipelines(typename B::Device& device, const rh
                                          &abuffer_resolve_deep_comp};
     const rhi::Shader* const lit[2][2] = {{&abuffer_lit_8_comp, &abuffer_lit_deep_comp},
                                           {&abuffer_lit_8_comp_exact, &abuffer_lit_deep_comp_exact}};
-    for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
-        const auto shading = desc_.fragments.constants();
-        const rhi::SpecConstant constants[] = {shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, {3, c}};
-        const bool surfaces = lists_.lit_later();
+    const bool surfaces = lists_.lit_later();
+    const auto shading = desc_.fragments.constants();
+    const rhi::SpecConstant constants[] = {
+        shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, walk_constant(device.info())};
+    for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; c += surfaces ? 2 : 1) {
         PELLUCID_OWN(resolve_[c], device,
                      device.make_pipeline(rhi::ComputePipelineDesc{
-                         .compute = surfaces ? lit[desc_.fragments.exact ? 1 : 0][c < 2 ? 0 : 1] : colors[c],
+                         .compute = surfaces ? lit[desc_.fragments.exact ? 1 : 0][c / 2] : colors[c],
                          .constants = constants,
                          .pass_group = layout,
                          .scene_group = surfaces ? scene_group_layout() : rhi::GroupLayout{},

@@ -25,7 +25,12 @@ struct FragmentListsDesc {
     std::uint32_t visit_turns = 0;    ///< turns of loops that visiting one fragment takes
 };
 
-/// Turns of its loops that a shader needs to walk `layers` fragments (shaders/common/fragment_lists.glsl).
+/// Specialises shaders that walk lists to a device.
+[[nodiscard]] inline rhi::SpecConstant walk_constant(const rhi::DeviceInfo& device) {
+    return {3, device.max_loop_turns != 0 ? 1u : 0u};
+}
+/// Turns of its loops that a shader needs to walk `layers` fragments where turns are limited
+/// (shaders/common/fragment_lists.glsl).
 [[nodiscard]] constexpr std::uint64_t walk_turns(std::uint64_t layers, std::uint64_t visit_turns) {
     constexpr std::uint64_t window = 16;
     const std::uint64_t windows = (layers + window - 1) / window;
@@ -68,8 +73,8 @@ public:
     [[nodiscard]] rhi::GroupDesc walker_group(const SmallVector<BoundTexture, 8>& images,
                                               const SmallVector<BoundTexture, 8>& textures, rhi::Sampler sampler,
                                               const char* debug_name) const;
-    /// Records a compute pass that walks a band: `pipelines[c]` for the tiles of class c.  `uses`: what it declares
-    /// beside the lists.
+    /// Records a compute pass that walks a band: `pipelines[c]` for the tiles of class c; null: that of the class
+    /// before.  `uses`: what it declares beside the lists.
     void walk(typename B::Commands& cmd, const StripBand& band, const SceneBinding& scene, rhi::Uses uses,
               std::span<const rhi::Pipeline, PELLUCID_LISTS_CLASS_COUNT> pipelines, rhi::Group group,
               float min_transmittance, const char* name) const;
@@ -93,8 +98,11 @@ public:
 private:
     [[nodiscard]] std::uint32_t fragment_bytes() const { return PELLUCID_LISTS_TEXEL_BYTES * (lit_later() ? 2u : 1u); }
     [[nodiscard]] std::uint32_t tiles() const;
-    [[nodiscard]] gpu::ListBand push(const StripBand& band, float min_transmittance) const {
-        return {.first_strip = band.first, .tile_stride = tiles(), .min_transmittance = min_transmittance};
+    [[nodiscard]] gpu::ListBand push(const StripBand& band, float min_transmittance, std::uint32_t tile_class) const {
+        return {.first_strip = band.first,
+                .tile_stride = tiles(),
+                .min_transmittance = min_transmittance,
+                .tile_class = tile_class};
     }
     void place(typename B::Commands& cmd, const StripBand& band) const;
     [[nodiscard]] Result<void> check_depth(const rhi::DeviceInfo& info, std::span<const gpu::LayerStrip> strips) const;
@@ -267,7 +275,7 @@ void FragmentLists<B>::place(typename B::Commands& cmd, const StripBand& band) c
          .name = "fragment_lists.place"});
     cmd.bind_pipeline(place_);
     cmd.bind_group(place_group_);
-    cmd.push(rhi::bytes_of(push(band, 0)));
+    cmd.push(rhi::bytes_of(push(band, 0, 0)));
     cmd.dispatch(band.count, 1, 1);
     cmd.end_compute();
 }
@@ -326,12 +334,14 @@ void FragmentLists<B>::walk(typename B::Commands& cmd, const StripBand& band, co
     if (lit_later())
         for (const rhi::ResourceUse& u : scene.uses) uses.push_back(u);
     cmd.begin_compute({.uses = uses, .name = name});
+    rhi::Pipeline pipeline{};
     for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
-        cmd.bind_pipeline(pipelines[c]);
+        if (pipelines[c]) pipeline = pipelines[c];
+        cmd.bind_pipeline(pipeline);
         if (lit_later()) cmd.bind_frame(scene.frame, scene.records);
         cmd.bind_group(group);
         if (lit_later()) cmd.bind_group(scene.group);
-        cmd.push(rhi::bytes_of(push(band, min_transmittance)));
+        cmd.push(rhi::bytes_of(push(band, min_transmittance, c)));
         cmd.dispatch_indirect(classes_, c * sizeof(gpu::ListClass));
     }
     cmd.end_compute();

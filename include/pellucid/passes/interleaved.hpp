@@ -13,7 +13,7 @@ struct InterleavedDesc {
     FragmentDesc fragments = {};
     std::uint64_t memory_budget = 0;  ///< [byte] for stored fragments; 0: what the device can bind
     float min_transmittance = 0;      ///< a pixel is done where less gets through; 0: only what nothing can change
-    bool audit = false;               ///< keep how many surfaces were lit for each pixel
+    bool audit = false;               ///< keep how many surfaces were lit for each pixel, and composite them all
 };
 
 /// `[h, w]` each; `hdr` is the frame's.
@@ -117,17 +117,18 @@ Result<void> InterleavedPass<B>::make_pipelines(typename B::Device& device) {
     const rhi::Shader* const merges[2][2] = {{&interleaved_merge_8_comp, &interleaved_merge_deep_comp},
                                              {&interleaved_merge_8_comp_exact, &interleaved_merge_deep_comp_exact}};
     const rhi::GroupLayout select_layout = select_group().layout, merge_layout = merge_group().layout;
-    for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; ++c) {
-        const auto shading = desc_.fragments.constants();
-        const rhi::SpecConstant constants[] = {shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, {3, c}};
-        rhi::ComputePipelineDesc pipeline{.compute = selects[c < 2 ? 0 : 1],
+    const auto shading = desc_.fragments.constants();
+    const rhi::SpecConstant constants[] = {
+        shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, walk_constant(device.info())};
+    for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; c += 2) {
+        rhi::ComputePipelineDesc pipeline{.compute = selects[c / 2],
                                           .constants = constants,
                                           .pass_group = select_layout,
                                           .scene_group = scene_group_layout(),
                                           .push_bytes = sizeof(gpu::ListBand),
                                           .debug_name = "interleaved.select"};
         PELLUCID_OWN(select_[c], device, device.make_pipeline(pipeline));
-        pipeline.compute = merges[desc_.fragments.exact ? 1 : 0][c < 2 ? 0 : 1];
+        pipeline.compute = merges[desc_.fragments.exact ? 1 : 0][c / 2];
         pipeline.pass_group = merge_layout;
         pipeline.debug_name = "interleaved.merge";
         PELLUCID_OWN(merge_[c], device, device.make_pipeline(pipeline));
@@ -177,7 +178,7 @@ void InterleavedPass<B>::record_merge(typename B::Commands& cmd, rhi::Texture de
             cmd, band, scene,
             {rhi::use(targets_.hdr, storage_read_write), rhi::use(audit_, storage_write),
              rhi::use(targets_.nodes, sampled), rhi::use(targets_.looks, sampled), rhi::use(targets_.light, sampled)},
-            pipelines, merge_group_, desc_.min_transmittance, "interleaved.merge");
+            pipelines, merge_group_, desc_.audit ? -1.0f : desc_.min_transmittance, "interleaved.merge");
     }
 }
 

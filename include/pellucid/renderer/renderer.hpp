@@ -58,7 +58,8 @@ public:
     /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
     /// own and waits.  `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
-    /// `[h, w, 1]` fragments that the last frame composited in each pixel, with settings.audit; waits.
+    /// `[h, w, 1]` fragments that the last frame composited in each pixel (`interleaved`: surfaces that it lit), with
+    /// settings.audit; waits.
     [[nodiscard]] Result<Image<std::uint32_t>> read_composited() { return translucent_.read_composited(*device_); }
     /// In [0,1]: a bound of what fragments that the last frame left out are worth, as a share of the largest radiance
     /// behind; waits.  `invalid_argument` for methods without one: those that do not heed min_transmittance.

@@ -167,6 +167,7 @@ template <rhi::Backend B>
 void Translucent<B>::declare_dual_peel() {
     using enum rhi::TextureUsage;
     using enum rhi::Format;
+    declare_layer_count();
     struct Own {
         GraphTexture range[2], front[2], layer, back;
     } own;
@@ -179,7 +180,6 @@ void Translucent<B>::declare_dual_peel() {
          .reads = {targets_.hdr, targets_.depth},
          .writes = {targets_.hdr, own.range[0], own.range[1], own.front[0], own.front[1], own.layer, own.back}},
         [this, own](typename B::Device& device) -> Result<void> {
-            device_ = &device;
             PELLUCID_TRY(dual_peel_, DualPeelPass<B>::create(
                                          device, {.fragments = fragments(), .max_passes = settings_->max_layers},
                                          {.hdr = (*this)[targets_.hdr],
@@ -188,17 +188,12 @@ void Translucent<B>::declare_dual_peel() {
                                           .front = {(*this)[own.front[0]], (*this)[own.front[1]]},
                                           .layer = (*this)[own.layer],
                                           .back = (*this)[own.back]}));
-            pipelines_ += 2 * culls() + 4;
+            pipelines_ += 2 * culls() + 3;
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
-            dual_peel_->begin(frame.commands(), scene_->binding(), scene_->translucent());
-            for (bool more = true; more;) {
-                dual_peel_->record_passes(frame.commands(), scene_->binding(), scene_->translucent());
-                PELLUCID_CHECK(frame.flush());
-                PELLUCID_TRY(more, dual_peel_->more(*device_));
-            }
-            dual_peel_->composite(frame.commands());
+            PELLUCID_CHECK(frame.flush());  // the counts
+            dual_peel_->record(frame.commands(), scene_->binding(), scene_->translucent(), count_->totals().deepest);
             return {};
         });
 }
@@ -231,7 +226,7 @@ void Translucent<B>::declare_abuffer() {
                                                            .min_transmittance = settings_->min_transmittance,
                                                            .audit = settings_->audit},
                                                           (*this)[targets_.hdr], count_->counts()));
-            pipelines_ += culls() + 1 + PELLUCID_LISTS_CLASS_COUNT;
+            pipelines_ += culls() + 1 + (fragment_content() == FragmentContent::surfaces ? 2 : 4);
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
@@ -314,7 +309,7 @@ void Translucent<B>::declare_interleaved_select() {
                                                                    .looks = (*this)[lighting_.looks],
                                                                    .light = (*this)[lighting_.layer_light]},
                                                                   count_->counts()));
-            pipelines_ += culls() + 1 + 2 * PELLUCID_LISTS_CLASS_COUNT;
+            pipelines_ += culls() + 1 + 2 * 2;
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
@@ -420,7 +415,7 @@ TranslucencyStats Translucent<B>::stats() const {
     if (peel_seed_) out.layers = settings_->max_layers ? settings_->max_layers : PELLUCID_PEEL_SEED_LAYERS;
     if (dual_peel_) {
         out.passes = dual_peel_->passes();
-        out.truncated = settings_->max_layers != 0 && out.passes == settings_->max_layers;
+        out.truncated = dual_peel_->truncated();
         if (out.truncated)
             lose("layers between the first " + std::to_string(out.passes) + " and the last " +
                  std::to_string(out.passes));

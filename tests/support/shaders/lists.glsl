@@ -28,6 +28,6 @@ bool visit(uint rank, uint place) {
 
 void main() {
     if (!find_pixel(pixel) || any(greaterThanEqual(pixel, imageSize(walks)))) return;
-    imageStore(walks, pixel, uvec4((imageLoad(walks, pixel).r & 0xFFu) + 1u | (CLASS + 1u) << 8u));
+    imageStore(walks, pixel, uvec4((imageLoad(walks, pixel).r & 0xFFu) + 1u | (band.tile_class + 1u) << 8u));
     walk(pixel, fragment_count(pixel));
 }
