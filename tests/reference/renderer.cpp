@@ -220,6 +220,26 @@ TEST_CASE("reference: a pixel is stable where an edge is more than 1/64 pixel aw
     for (std::uint32_t x = 0; x < 8; ++x) CHECK((*p.stable.texel(x, 1) == 255) == (x != 3));
 }
 
+TEST_CASE("reference: a pixel is not stable where single precision may order depths otherwise", "[cpu]") {
+    const Material half = flat({1, 1, 1, 0.5f}, AlphaMode::blend);
+    RenderOptions options = small();
+    options.stability = true;
+    struct Case {
+        double apart;
+        bool stable;
+    };
+    for (const Case c : {Case{0, true}, Case{1e-9, false}, Case{1e-7, false}, Case{1e-5, true}}) {
+        Scene scene;
+        add(scene, quad(4, 4), half, at(0.3, 0.2, 0));
+        add(scene, quad(4, 4), half, at(0.3, 0.2, c.apart));
+        const auto fragments = must(reference::fragments_at(scene, flat_camera(), options, 2, 3));
+        REQUIRE(fragments.size() == 2);
+        CAPTURE(c.apart, fragments[0].depth, fragments[1].depth);
+        const Picture p = must(render(scene, flat_camera(), options));
+        CHECK((*p.stable.texel(2, 3) == 255) == c.stable);
+    }
+}
+
 TEST_CASE("reference: fragments_at tells what made the pixel", "[cpu]") {
     const Scene scene = make_demo_scene();
     RenderOptions options{

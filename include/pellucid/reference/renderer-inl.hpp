@@ -99,6 +99,15 @@ inline void draw_tile(const Prepared& prepared, const PixelRect& rect, std::span
             *out.layers.texel(column, row) = layers;
         }
     if (!options.stability) return;
+    const auto unstable = [&](std::int32_t x, std::int32_t y) {
+        *out.stable.texel(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) = 0;
+    };
+    pixel = 0;
+    for (std::int32_t y = rect.top; y < rect.bottom; ++y)
+        for (std::int32_t x = rect.left; x < rect.right; ++x, ++pixel) {
+            const auto a = hits.of(pixel);
+            if (std::adjacent_find(a.begin(), a.end(), depths_too_close) != a.end()) unstable(x, y);
+        }
     PixelHits moved;
     for (int i = 0; i < 9; ++i) {
         const int right = i % 3 - 1, down = i / 3 - 1;
@@ -109,8 +118,7 @@ inline void draw_tile(const Prepared& prepared, const PixelRect& rect, std::span
             for (std::int32_t x = rect.left; x < rect.right; ++x, ++pixel) {
                 const auto a = hits.of(pixel), b = moved.of(pixel);
                 const auto same = [](const Hit& p, const Hit& q) { return p.primitive == q.primitive; };
-                if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same))
-                    *out.stable.texel(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y)) = 0;
+                if (!std::equal(a.begin(), a.end(), b.begin(), b.end(), same)) unstable(x, y);
             }
     }
 }

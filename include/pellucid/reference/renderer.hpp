@@ -50,8 +50,9 @@ struct Picture {
     /// [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha.
     Image<std::uint32_t> layers;
     /// [h, w, 1] 255 where the fragments up to the first opaque one are the same primitives in the same order at the
-    /// pixel's centre and at the eight points that are 1/64 pixel off along x, along y or along both; else 0.  Empty
-    /// unless `stability` was asked for.
+    /// pixel's centre and at the eight points that are 1/64 pixel off along x, along y or along both, and no two that
+    /// follow each other have depths that differ by 8 units in the last place of a float or less, but are not equal;
+    /// else 0.  Empty unless `stability` was asked for.
     Image8 stable;
 };
 

@@ -25,6 +25,15 @@ struct Hit {
     return a.depth_bits != b.depth_bits ? a.depth_bits > b.depth_bits : a.primitive > b.primitive;
 }
 
+/// Whether a device that interpolates depths in single precision may see two neighbours in the other order.  Equal
+/// depths are those of the same triangle drawn twice: they come out equal everywhere.
+[[nodiscard]] inline bool depths_too_close(const Hit& nearer, const Hit& farther) noexcept {
+    constexpr std::uint32_t units = 8;  // of the last place
+    const std::uint32_t apart = nearer.depth_bits > farther.depth_bits ? nearer.depth_bits - farther.depth_bits
+                                                                       : farther.depth_bits - nearer.depth_bits;
+    return nearer.depth != farther.depth && apart <= units;
+}
+
 /// The hits of a rectangle's pixels, each pixel's nearest first and up to its first opaque one.
 struct PixelHits {
     std::vector<Hit> hits;
