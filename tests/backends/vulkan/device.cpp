@@ -52,6 +52,7 @@ TEST_CASE("features that are missing are named", "[cpu]") {
     complete.core.features = wanted.core.features;
     complete.v11.shaderDrawParameters = complete.v12.hostQueryReset = VK_TRUE;
     complete.v13.dynamicRendering = complete.v13.synchronization2 = complete.v13.maintenance4 = VK_TRUE;
+    complete.v13.robustImageAccess = VK_TRUE;
     CHECK(vulkan::choose_features(complete, wanted).empty());
     complete.v13.maintenance4 = VK_FALSE;
     CHECK(vulkan::choose_features(complete, wanted) == "the features maintenance4");
