@@ -53,18 +53,6 @@ private:
     rhi::Unique<typename B::Device, rhi::Texture> range_[2], front_[2], layer_, back_;
 };
 
-constexpr glm::vec4 kinds[] = {{1, 0.25f, 0.5f, 0.25f}, {0.25f, 1, 0.75f, 0.125f}, {0.5f, 0.125f, 1, 0.375f}};
-
-Scene sheets(std::uint32_t count, std::vector<Layer>& layers) {
-    std::vector<Sheet> out;
-    layers.clear();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        out.push_back({.slot = 1 + i, .color = kinds[i % 3]});
-        layers.insert(layers.begin(), straight(kinds[i % 3]));
-    }
-    return make_sheets(out);
-}
-
 }  // namespace
 
 TEMPLATE_LIST_TEST_CASE("dual peeling takes two layers a pass until none is left", "[gpu]", Backends) {
@@ -73,7 +61,7 @@ TEMPLATE_LIST_TEST_CASE("dual peeling takes two layers a pass until none is left
     const glm::dvec3 background{0.25, 0.5, 0.125};
     for (const std::uint32_t count : {1u, 2u, 3u, 4u, 5u, 8u, 9u, 131u}) {
         std::vector<Layer> layers;
-        const Scene scene = sheets(count, layers);
+        const Scene scene = stacked_sheets(count, layers);
         DualPeeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)});
         const KnownScene known = uniform_scene("sheets", scene, {16, 8}, known_pixel(layers, background));
         for (int frame = 0; frame < 2; ++frame) {
@@ -92,7 +80,7 @@ TEMPLATE_LIST_TEST_CASE("dual peeling with too few passes lacks the layers in th
     if (!device) return;
     const glm::dvec3 background{0.25, 0.5, 0.125};
     std::vector<Layer> layers;
-    const Scene scene = sheets(9, layers);
+    const Scene scene = stacked_sheets(9, layers);
     for (std::uint32_t most = 1; most <= 6; ++most) {
         std::vector<Layer> outer = layers;
         if (2 * most < 9) outer.erase(outer.begin() + most, outer.end() - most);
@@ -113,18 +101,18 @@ TEMPLATE_LIST_TEST_CASE("dual peeling loses all but one of several fragments of 
     // Two sheets in one slot: in front of all others, in their middle, behind them, alone.  One remains, with the
     // larger of each channel of colour and alpha.
     const glm::dvec3 background{0.25, 0.5, 0.125};
-    const Layer a = straight(kinds[0]), b = straight(kinds[1]);
-    const Layer most{glm::max(a.color, b.color), std::max(a.alpha, b.alpha)}, other = straight(kinds[2]);
+    const Layer a = straight(sheet_kinds[0]), b = straight(sheet_kinds[1]);
+    const Layer most{glm::max(a.color, b.color), std::max(a.alpha, b.alpha)}, other = straight(sheet_kinds[2]);
     struct Case {
         std::vector<Sheet> sheets;
         std::vector<Layer> left;
     };
     const auto pair = [](std::uint32_t slot) {
-        return std::vector<Sheet>{{.slot = slot, .color = kinds[0]}, {.slot = slot, .color = kinds[1]}};
+        return std::vector<Sheet>{{.slot = slot, .color = sheet_kinds[0]}, {.slot = slot, .color = sheet_kinds[1]}};
     };
     const auto with = [&](std::uint32_t slot, std::vector<std::uint32_t> others) {
         std::vector<Sheet> out = pair(slot);
-        for (const std::uint32_t o : others) out.push_back({.slot = o, .color = kinds[2]});
+        for (const std::uint32_t o : others) out.push_back({.slot = o, .color = sheet_kinds[2]});
         return out;
     };
     const Case cases[] = {{pair(50), {most}},

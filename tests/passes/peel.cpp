@@ -68,19 +68,6 @@ private:
     rhi::Unique<typename B::Device, rhi::Texture> next_, layer_, sum_, count_;
 };
 
-constexpr glm::vec4 kinds[] = {{1, 0.25f, 0.5f, 0.25f}, {0.25f, 1, 0.75f, 0.125f}, {0.5f, 0.125f, 1, 0.375f}};
-
-/// `count` sheets, sheet i in slot 1 + i, as triangles of one mesh; `layers` nearest first.
-Scene sheets(std::uint32_t count, std::vector<Layer>& layers) {
-    std::vector<Sheet> out;
-    layers.clear();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        out.push_back({.slot = 1 + i, .color = kinds[i % 3]});
-        layers.insert(layers.begin(), straight(kinds[i % 3]));
-    }
-    return make_sheets(out);
-}
-
 }  // namespace
 
 TEMPLATE_LIST_TEST_CASE("peeling finds as many layers as there are, in one batch or several", "[gpu]", Backends) {
@@ -90,7 +77,7 @@ TEMPLATE_LIST_TEST_CASE("peeling finds as many layers as there are, in one batch
     // A batch starts with 4 layers and doubles up to 64; one more is needed to see that nothing is left.
     for (const std::uint32_t count : {1u, 3u, 4u, 5u, 11u, 12u, 13u, 130u}) {
         std::vector<Layer> layers;
-        const Scene scene = sheets(count, layers);
+        const Scene scene = stacked_sheets(count, layers);
         Peeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)});
         const KnownScene known = uniform_scene("sheets", scene, {16, 8}, known_pixel(layers, background));
         ImageF first;
@@ -124,8 +111,8 @@ TEMPLATE_LIST_TEST_CASE("peeling stops at max_layers depths, and says so where t
     for (std::uint32_t d = 0; d < 6; ++d) {
         depths.emplace_back();
         for (std::uint32_t i = 0; i < (d % 3 == 1 ? 3u : 1u); ++i) {
-            all.push_back({.slot = 100 - 10 * d, .color = kinds[(d + i) % 3]});
-            depths.back().insert(depths.back().begin(), straight(kinds[(d + i) % 3]));
+            all.push_back({.slot = 100 - 10 * d, .color = sheet_kinds[(d + i) % 3]});
+            depths.back().insert(depths.back().begin(), straight(sheet_kinds[(d + i) % 3]));
         }
     }
     const Scene scene = make_sheets(all);
@@ -153,7 +140,7 @@ TEMPLATE_LIST_TEST_CASE("what is behind something opaque is no layer, and leavin
     const auto device = make_device<TestType>();
     if (!device) return;
     std::vector<Layer> layers;
-    const Scene scene = sheets(5, layers);  // in slots 1 to 5
+    const Scene scene = stacked_sheets(5, layers);  // in slots 1 to 5
     layers.resize(2);
     const glm::dvec3 opaque{0.25, 0.5, 0.125};
     const KnownScene known = uniform_scene("half hidden", scene, {16, 8}, known_pixel(layers, opaque));

@@ -90,4 +90,20 @@ private:
     return m;
 }
 
+/// Colours and alphas of three kinds of sheets.
+inline constexpr glm::vec4 sheet_kinds[] = {
+    {1, 0.25f, 0.5f, 0.25f}, {0.25f, 1, 0.75f, 0.125f}, {0.5f, 0.125f, 1, 0.375f}};
+
+/// `count` sheets, sheet i in slot 1 + i and of kind i mod 3, as triangles of one mesh; `layers`: what they are,
+/// nearest first.
+[[nodiscard]] inline Scene stacked_sheets(std::uint32_t count, std::vector<Layer>& layers) {
+    std::vector<Sheet> out;
+    layers.clear();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        out.push_back({.slot = 1 + i, .color = sheet_kinds[i % 3]});
+        layers.insert(layers.begin(), straight(sheet_kinds[i % 3]));
+    }
+    return make_sheets(out);
+}
+
 }  // namespace pellucid::test

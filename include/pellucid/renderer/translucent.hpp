@@ -134,3 +134,5 @@ private:
 }  // namespace pellucid
 
 #include <pellucid/renderer/translucent-inl.hpp>
+#include <pellucid/renderer/translucent_interleaved-inl.hpp>
+#include <pellucid/renderer/translucent_sorting-inl.hpp>
