@@ -41,7 +41,7 @@ namespace detail {
 /// Errors: internal where it is more than `bound`, or not finite.
 [[nodiscard]] inline Result<double> added_error(const Case& c, const std::string& method, const ImageF& picture,
                                                 const ImageF& expected, const char* expected_name, const ImageF* slack,
-                                                const Image8& stable, double bound) {
+                                                const Image8& stable, double bound, bool software) {
     double worst = 0;
     std::size_t at = 0, values = 0, beyond = 0;
     for (std::size_t i = 0; i < picture.data.size(); ++i) {
@@ -55,8 +55,8 @@ namespace detail {
         worst = std::isfinite(scaled) ? scaled : INFINITY, at = i;
         if (!std::isfinite(scaled)) break;
     }
-    // Devices snap corners to 1/256 pixel: that moves a highlight narrower than a pixel, and nothing else so much.
-    if (worst <= bound || (c.lit && std::isfinite(worst) && 1000 * beyond <= values)) return worst;
+    // GPUs only: seen on an H100 where a highlight is narrower than a pixel; the cause was not found.
+    if (worst <= bound || (c.lit && !software && std::isfinite(worst) && 1000 * beyond <= values)) return worst;
     const std::size_t x = at / 3 % picture.width, y = at / 3 / picture.width;
     return Error{Errc::internal,
                  c.name + ", " + method + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) + "), channel " +
@@ -156,10 +156,10 @@ public:
         for (Contender& entry : contenders_) {
             if (!entry.exact) continue;
             if (expected) {
-                PELLUCID_TRY(const double added,
-                             detail::added_error(case_, entry.row.method, entry.picture, *expected,
-                                                 case_.sampled ? "first exact method" : "reference",
-                                                 case_.sampled ? nullptr : &slack_, truth_.stable, out_.exact_bound));
+                PELLUCID_TRY(const double added, detail::added_error(case_, entry.row.method, entry.picture, *expected,
+                                                                     case_.sampled ? "first exact method" : "reference",
+                                                                     case_.sampled ? nullptr : &slack_, truth_.stable,
+                                                                     out_.exact_bound, device_.info().software));
                 entry.row.added_error = std::max(entry.row.added_error, added);
             } else {
                 expected = &entry.picture;
