@@ -12,9 +12,11 @@ layout(location = 0) out vec4 out_color;
 layout(location = 1) out float out_count;
 
 void main() {
-    out_color = shade_fragment();
-    out_count = 1.0;
-    // Depth 0 also marks pixels that are done: there a fragment at the far end would come again.
+    // Depth 0 also marks pixels that are done: there a fragment at the far end would come again.  It adds nothing (and is
+    // not discarded: where a shader may discard, Mesa's software drivers blend what the depth test has refused, too).
     ivec2 at = ivec2(gl_FragCoord.xy);
-    if (gl_FragCoord.z != texelFetch(next, at, 0).r || gl_FragCoord.z < texelFetch(opaque_depth, at, 0).r) discard;
+    bool in_layer =
+        gl_FragCoord.z == texelFetch(next, at, 0).r && gl_FragCoord.z >= texelFetch(opaque_depth, at, 0).r;
+    out_color = in_layer ? shade_fragment() : vec4(0.0);
+    out_count = in_layer ? 1.0 : 0.0;
 }

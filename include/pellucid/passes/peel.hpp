@@ -73,10 +73,9 @@ private:
     void advance(typename B::Commands& cmd) const;
     void layer(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> reversed) const;
 
-    /// Of the layer that is recorded.
-    [[nodiscard]] rhi::Rect area() const {
+    [[nodiscard]] rhi::Rect area(std::size_t layer) const {
         const Extent2D size = desc_.fragments.size;
-        return areas_.empty() ? rhi::Rect{.width = size.width, .height = size.height} : areas_[recorded_];
+        return areas_.empty() ? rhi::Rect{.width = size.width, .height = size.height} : areas_[layer];
     }
     [[nodiscard]] bool recorded_all() const { return !areas_.empty() && recorded_ == areas_.size(); }
 
@@ -84,7 +83,7 @@ private:
     PeelTargets targets_;
     rhi::Unique<typename B::Device, rhi::Sampler> sampler_;
     rhi::Unique<typename B::Device, rhi::Group> layer_group_;
-    FullScreenPass<B> advance_, composite_;
+    FullScreenPass<B> advance_first_, advance_, composite_;
     rhi::Unique<typename B::Device, rhi::Queries> queries_;
     CullVariants<B> first_, nearest_, layer_;
     std::vector<rhi::Rect> areas_;
@@ -144,17 +143,21 @@ Result<void> PeelPass<B>::make_pipelines(typename B::Device& device) {
     if (desc_.audit) shade.colors.push_back({.format = rhi::Format::r32_float, .blend = add});
     PELLUCID_CHECK(layer_.create(device, shade, desc_.fragments.culls));
 
-    PELLUCID_TRY(
-        advance_,
-        FullScreenPass<B>::create(
+    const auto make_advance = [&](std::uint32_t is_first) {
+        const rhi::SpecConstant constant[] = {{2, is_first}};
+        return FullScreenPass<B>::create(
             device,
             {.fragment = &shaders::peel_advance_frag,
+             .constants = constant,
              .textures = {{PELLUCID_PEEL_NEXT, targets_.next},
                           {PELLUCID_PEEL_OPAQUE, targets_.opaque},
                           {PELLUCID_PEEL_SUM, targets_.sum}},
              .depth = {.format = rhi::Format::d32_float, .test = true, .write = true, .compare = rhi::Compare::always},
              .push_bytes = sizeof(gpu::PeelAdvance),
-             .debug_name = "peel.advance"}));
+             .debug_name = "peel.advance"});
+    };
+    PELLUCID_TRY(advance_first_, make_advance(1));
+    PELLUCID_TRY(advance_, make_advance(0));
     constexpr rhi::Blend over{true, one, src_alpha, rhi::BlendOp::add, zero, one, rhi::BlendOp::add};
     PELLUCID_TRY(composite_,
                  FullScreenPass<B>::create(device, {.fragment = &shaders::peel_composite_frag,
@@ -184,7 +187,7 @@ void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, 
         desc_.fragments.render_pass(first ? targets_.opaque : targets_.layer, scene, "peel.nearest");
     pass.colors.push_back({.texture = targets_.next, .clear = {-1, 0, 0, 0}});
     cmd.begin_render(pass);
-    cmd.set_scissor(area());
+    cmd.set_scissor(area(recorded_));
     draw_items<B>(cmd, first ? first_ : nearest_, scene, items);
     cmd.end_render();
 }
@@ -192,14 +195,15 @@ void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, 
 template <rhi::Backend B>
 void PeelPass<B>::advance(typename B::Commands& cmd) const {
     const gpu::PeelAdvance push{.min_transmittance = desc_.audit ? -1.0f : desc_.min_transmittance};
-    advance_.record(cmd, {.depth = {.texture = targets_.layer, .clear = 0}, .size = desc_.fragments.size},
-                    [&](typename B::Commands& c, auto&& draw) {
-                        c.push(rhi::bytes_of(push));
-                        c.set_scissor(area());
-                        c.begin_query(queries_, in_batch_);
-                        draw();
-                        c.end_query(queries_, in_batch_);
-                    });
+    const FullScreenPass<B>& pass = recorded_ == 0 ? advance_first_ : advance_;
+    pass.record(cmd, {.depth = {.texture = targets_.layer, .clear = 0}, .size = desc_.fragments.size},
+                [&](typename B::Commands& c, auto&& draw) {
+                    c.push(rhi::bytes_of(push));
+                    c.set_scissor(area(recorded_));
+                    c.begin_query(queries_, in_batch_);
+                    draw();
+                    c.end_query(queries_, in_batch_);
+                });
 }
 
 template <rhi::Backend B>
@@ -212,7 +216,7 @@ void PeelPass<B>::layer(typename B::Commands& cmd, const SceneBinding& scene,
     pass.uses.push_back(rhi::use(targets_.next, sampled));
     pass.uses.push_back(rhi::use(targets_.opaque, sampled));
     cmd.begin_render(pass);
-    cmd.set_scissor(area());
+    cmd.set_scissor(area(recorded_));
     draw_items<B>(cmd, layer_, scene, reversed, layer_group_);
     cmd.end_render();
 }
@@ -253,7 +257,11 @@ Result<bool> PeelPass<B>::more(typename B::Device& device) {
 template <rhi::Backend B>
 void PeelPass<B>::composite(typename B::Commands& cmd) const {
     composite_.record(cmd,
-                      {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
+                      {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size},
+                      [&](typename B::Commands& c, auto&& draw) {
+                          c.set_scissor(area(0));
+                          draw();
+                      });
 }
 
 }  // namespace pellucid
