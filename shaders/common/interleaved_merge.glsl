@@ -3,21 +3,13 @@
 // pixels around that lit the same surface, and where none of them fits, or where they disagree, it is computed here.
 #define VISIT_IN_LOOP
 #include "common/surface_node.glsl"
-#include "common/fragment_lists.glsl"
+#include "common/list_compositor.glsl"
 #include "pellucid/gpu/interleaved.h"
 
-SPEC_CONSTANT(2, AUDIT, 0u);
 PASS_IMAGE(PELLUCID_LISTS_LOOKS, rgba32ui) readonly uimage2D looks;
-PASS_IMAGE(PELLUCID_INTERLEAVED_TARGET, rgba16f) image2D hdr;
-PASS_IMAGE(PELLUCID_INTERLEAVED_AUDIT, r32ui) writeonly uimage2D lit;
 PASS_TEXTURE(PELLUCID_INTERLEAVED_NODES) usampler2D chosen_nodes;
 PASS_TEXTURE(PELLUCID_INTERLEAVED_LOOKS) usampler2D chosen_looks;
 PASS_TEXTURE(PELLUCID_INTERLEAVED_LIGHT) sampler2D light;
-
-ivec2 pixel;
-vec3 composite;
-float through;
-uint lit_here;
 
 // Largest difference of the taps, relative to their mean, up to which the mean is believed.
 const float AGREEMENT = 0.06;
@@ -69,32 +61,15 @@ vec3 light_on(uvec4 node, uvec4 look, Surface s) {
     bool believed = total > 0.3 && length(center) < 0.5 * total &&
                     all(lessThanEqual(spread, AGREEMENT * mean + ABSOLUTE_AGREEMENT));
     if (believed) return mean;
-    ++lit_here;
+    ++tally;
     return light_surface(s, pixel, node_depth(node));
 }
 
-bool visit(uint rank, uint place) {
+// The audit: surfaces lit for the pixel, the first by the lighting pass.
+vec4 fragment_color(uint rank, uint place) {
+    if (rank == 0u) ++tally;
     uvec4 node = imageLoad(nodes, node_texel(place));
     uvec4 look = imageLoad(looks, node_texel(place));
     Surface s = unpack_surface(node, look);
-    vec4 c = premultiply(s, s.emissive + light_on(node, look, s));
-    precise vec3 sum = composite + c.rgb * through;
-    precise float left = through * (1.0 - c.a);
-    composite = sum;
-    through = left;
-    return through > band.min_transmittance;
-}
-
-void main() {
-    if (!find_pixel(pixel)) return;
-    uint count = fragment_count(pixel);
-    composite = vec3(0.0);
-    through = 1.0;
-    lit_here = 1u;
-    walk(pixel, count);
-    if (count == 0u) return;
-    if (AUDIT != 0u) imageStore(lit, pixel, uvec4(lit_here));
-    vec4 behind = imageLoad(hdr, pixel);
-    precise vec3 sum = composite + behind.rgb * through;
-    imageStore(hdr, pixel, vec4(min(sum, vec3(65504.0)), behind.a));
+    return premultiply(s, s.emissive + light_on(node, look, s));
 }

@@ -81,7 +81,10 @@ TEST_CASE("methods that list fragments keep every rule in one band, in several a
                 record(f.commands());
                 return {};
             });
-            CHECK(pass.bands() == (slots == 0 ? 0 : slots == 100 ? 1 : slots == 400 ? 3 : 5));
+            CHECK(pass.compositor().lists().bands().size() == (slots == 0     ? 0
+                                                               : slots == 100 ? 1
+                                                               : slots == 400 ? 3
+                                                                              : 5));
         }
         CHECK_FALSE(pass.prepare(*device, std::vector<gpu::LayerStrip>(5, {.slots = 1001})));
     };

@@ -10,15 +10,18 @@ set(helpers
   full_screen     # a triangle over the picture, with the shader of whoever owns it
   strip_bands     # arithmetic on the CPU
   layer_areas     # the same
-  fragment_lists) # memory that methods of transparency walk
-# Of those, the ones that are only a descriptor or a loop: every pass's test is theirs.
-set(helpers_without_test draw_list fragment_desc)
+  fragment_lists  # memory that methods of transparency walk
+  list_compositor) # and what composites it
+# Of those, the ones that are only a descriptor or a loop, or the common part of passes: every pass's test is theirs.
+set(helpers_without_test draw_list fragment_desc list_compositor)
 # Methods of transparency: what they draw is a whole picture, so their reference is the reference renderer, and one
 # program measures those beside each other that have no benchmark of their own.
 set(methods sorted_forward abuffer peel peel_seed dual_peel interleaved interleaved_skyx)
 # Parts of a method that cannot do without: the counts in pictures of the reference renderer are their reference, and
 # whoever measures the method measures them.
 set(parts_of_methods layer_count)
+# Methods without a struct file of their own.
+set(without_struct abuffer)  # it binds what gpu/list_compositor.h names
 # Folders of shaders/ and files of gpu/ that belong to no pass.
 set(shaders_of_all common scene)          # what entries include; the vertex stage of every scene
 set(structs_of_all bindings scene types)  # the registry, the scene's groups, the macros
@@ -46,7 +49,7 @@ endfunction()
 file(GLOB headers RELATIVE ${SOURCE}/include/pellucid/passes ${SOURCE}/include/pellucid/passes/*.hpp)
 list(FILTER headers EXCLUDE REGEX "-inl\\.hpp$")
 list(TRANSFORM headers REPLACE "\\.hpp$" "" OUTPUT_VARIABLE stems)
-foreach(name IN LISTS helpers helpers_without_test methods parts_of_methods)
+foreach(name IN LISTS helpers helpers_without_test methods parts_of_methods without_struct)
   if(NOT name IN_LIST stems)
     message(SEND_ERROR "tests/structure/stems_complete.cmake names '${name}', which is no header of passes/")
   endif()
@@ -65,7 +68,12 @@ foreach(stem IN LISTS stems)
     continue()
   endif()
   math(EXPR passes "${passes} + 1")
-  require(${stem} include/pellucid/gpu/${stem}.h shaders/${stem})
+  require(${stem} shaders/${stem})
+  if(NOT stem IN_LIST without_struct)
+    require(${stem} include/pellucid/gpu/${stem}.h)
+  elseif(EXISTS ${SOURCE}/include/pellucid/gpu/${stem}.h)
+    message(SEND_ERROR "'${stem}' has a struct file: it has no place in without_struct of stems_complete.cmake")
+  endif()
   # Every pass is in the list of what backends, the null one too, instantiate.
   if(NOT instances MATCHES "how template class ${class}pass<b>")
     message(SEND_ERROR "the pass '${stem}' is not in include/pellucid/renderer/instances.hpp")

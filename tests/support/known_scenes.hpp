@@ -75,6 +75,16 @@ private:
     return known;
 }
 
+/// Checks that every pixel of a picture of `scene` shows `layers`, the nearest first, over `behind`.
+inline void check_layers(const ImageF& hdr, const Scene& scene, std::vector<Layer> layers, const glm::dvec3& behind,
+                         Transparency method, bool software) {
+    const KnownScene known =
+        uniform_scene("layers", scene, {hdr.width, hdr.height}, known_pixel(std::move(layers), behind));
+    const Verdict verdict = judge(hdr, known, method, software);
+    INFO(verdict.first);
+    CHECK(verdict.outside == 0);
+}
+
 /// A surface of any radiance, not lit.
 [[nodiscard]] inline Material shining(const glm::vec3& radiance, float alpha = 1, AlphaMode mode = AlphaMode::blend) {
     Material m = matte({0, 0, 0});

@@ -4,8 +4,6 @@
 #define PELLUCID_GPU_INTERLEAVED_H
 #include "pellucid/gpu/fragment_lists.h"
 
-#define PELLUCID_INTERLEAVED_TARGET 0  // storage image, rgba16f: linear radiance, read and written
-#define PELLUCID_INTERLEAVED_AUDIT 5   // storage image, r32ui: surfaces lit for a pixel (audit only)
 #define PELLUCID_INTERLEAVED_NODE 6    // storage image, rgba32ui: the surface that a pixel lights, as in the lists
 #define PELLUCID_INTERLEAVED_LOOK 7    // storage image, rgba32ui: the rest of it
 #define PELLUCID_INTERLEAVED_NODES 18  // sampled: the same

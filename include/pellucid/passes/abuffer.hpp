@@ -2,8 +2,7 @@
 #pragma once
 /// \file
 /// Exact transparency of any order and depth: an A-buffer (Carpenter 1984) of exactly the size that the frame needs.
-#include <pellucid/gpu/abuffer.h>
-#include <pellucid/passes/fragment_lists.hpp>
+#include <pellucid/passes/list_compositor.hpp>
 #include <pellucid/shaders/abuffer.hpp>
 
 namespace pellucid {
@@ -12,7 +11,7 @@ struct AbufferDesc {
     FragmentDesc fragments = {};
     FragmentContent content = FragmentContent::colors;  ///< surfaces: lit in compute, and only what is seen
     std::uint64_t memory_budget = 0;                    ///< [byte] for stored fragments; 0: what the device can bind
-    float min_transmittance = 0;  ///< a pixel is done where less gets through; 0: only what nothing can change
+    float min_transmittance = 0;  ///< a pixel is done where no more gets through; 0: only what nothing can change
     bool audit = false;           ///< keep how many fragments each pixel composited, and composite them all
 };
 
@@ -37,27 +36,16 @@ public:
     void record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                 std::span<const DrawItem> items) const;
 
-    [[nodiscard]] std::size_t bands() const { return lists_.bands().size(); }
-    [[nodiscard]] std::uint64_t pool_bytes() const { return lists_.bytes(); }
-    /// r32_uint `[h, w]`: fragments composited in each pixel; 1 × 1 unless `audit`.
-    [[nodiscard]] rhi::Texture composited() const { return audit_; }
-    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
-    template <class F>
-    void each_resource(F&& visit) const {
-        lists_.each_resource(visit);
-        const Extent2D size = desc_.audit ? desc_.fragments.size : Extent2D{1, 1};
-        visit("abuffer.audit", std::uint64_t{4} * size.width * size.height);
-    }
+    /// Its audit: fragments composited.
+    [[nodiscard]] const ListCompositor<B>& compositor() const { return compositor_; }
 
 private:
     [[nodiscard]] Result<void> make_pipelines(typename B::Device& device, const rhi::GroupLayout& layout);
 
     AbufferDesc desc_;
-    rhi::Texture hdr_ = {};
-    FragmentLists<B> lists_;
-    rhi::Unique<typename B::Device, rhi::Texture> audit_;
+    ListCompositor<B> compositor_;
     rhi::Unique<typename B::Device, rhi::Group> group_;
-    rhi::Unique<typename B::Device, rhi::Pipeline> resolve_[PELLUCID_LISTS_CLASS_COUNT];
+    typename ListCompositor<B>::Pipelines resolve_;
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
@@ -67,27 +55,18 @@ Result<AbufferPass<B>> AbufferPass<B>::create(typename B::Device& device, const 
                                               rhi::Texture counts) {
     AbufferPass pass;
     pass.desc_ = desc;
-    pass.hdr_ = hdr;
-    PELLUCID_TRY(pass.lists_,
-                 FragmentLists<B>::create(
-                     device,
-                     {.fragments = desc.fragments,
-                      .content = desc.content,
-                      .memory_budget = desc.memory_budget,
-                      .visit_turns = desc.content == FragmentContent::surfaces ? 1 + desc.fragments.lights : 0},
-                     counts));
-    // A binding that is not used still wants an image.
-    PELLUCID_OWN(pass.audit_, device,
-                 device.make_texture({.size = desc.audit ? desc.fragments.size : Extent2D{1, 1},
-                                      .format = rhi::Format::r32_uint,
-                                      .usage = rhi::TextureUsage::storage | rhi::TextureUsage::copy_source |
-                                               rhi::TextureUsage::attachment,
-                                      .debug_name = "abuffer.audit"}));
-    PELLUCID_CHECK(pass.make_pipelines(
-        device,
-        pass.lists_
-            .walker_group({{PELLUCID_ABUFFER_TARGET, hdr}, {PELLUCID_ABUFFER_AUDIT, pass.audit_}}, {}, {}, "abuffer")
-            .layout));
+    PELLUCID_TRY(
+        pass.compositor_,
+        ListCompositor<B>::create(
+            device,
+            {.lists = {.fragments = desc.fragments,
+                       .content = desc.content,
+                       .memory_budget = desc.memory_budget,
+                       .visit_turns = desc.content == FragmentContent::surfaces ? 1 + desc.fragments.lights : 0},
+             .min_transmittance = desc.min_transmittance,
+             .audit = desc.audit},
+            hdr, counts));
+    PELLUCID_CHECK(pass.make_pipelines(device, pass.compositor_.group({}, {}, "abuffer").layout));
     return pass;
 }
 
@@ -98,10 +77,8 @@ Result<void> AbufferPass<B>::make_pipelines(typename B::Device& device, const rh
                                          &abuffer_resolve_deep_comp};
     const rhi::Shader* const lit[2][2] = {{&abuffer_lit_8_comp, &abuffer_lit_deep_comp},
                                           {&abuffer_lit_8_comp_exact, &abuffer_lit_deep_comp_exact}};
-    const bool surfaces = lists_.lit_later();
-    const auto shading = desc_.fragments.constants();
-    const rhi::SpecConstant constants[] = {
-        shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, walk_constant(device.info())};
+    const bool surfaces = compositor_.lists().lit_later();
+    const auto constants = compositor_.constants(device.info());
     for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; c += surfaces ? 2 : 1) {
         PELLUCID_OWN(resolve_[c], device,
                      device.make_pipeline(rhi::ComputePipelineDesc{
@@ -117,27 +94,19 @@ Result<void> AbufferPass<B>::make_pipelines(typename B::Device& device, const rh
 
 template <rhi::Backend B>
 Result<void> AbufferPass<B>::prepare(typename B::Device& device, std::span<const gpu::LayerStrip> strips) {
-    PELLUCID_TRY(const bool made, lists_.prepare(device, strips));
+    PELLUCID_TRY(const bool made, compositor_.lists().prepare(device, strips));
     if (!made) return {};
-    PELLUCID_OWN(group_, device,
-                 device.make_group(lists_.walker_group(
-                     {{PELLUCID_ABUFFER_TARGET, hdr_}, {PELLUCID_ABUFFER_AUDIT, audit_}}, {}, {}, "abuffer")));
+    PELLUCID_OWN(group_, device, device.make_group(compositor_.group({}, {}, "abuffer")));
     return {};
 }
 
 template <rhi::Backend B>
 void AbufferPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                             std::span<const DrawItem> items) const {
-    using enum rhi::Access;
-    if (desc_.audit) {
-        cmd.begin_render({.colors = {{.texture = audit_}}, .size = desc_.fragments.size, .name = "abuffer.audit"});
-        cmd.end_render();
-    }
-    const rhi::Pipeline pipelines[] = {resolve_[0], resolve_[1], resolve_[2], resolve_[3]};
-    for (const StripBand& band : lists_.bands()) {
-        lists_.record(cmd, band, depth, scene, items);
-        lists_.walk(cmd, band, scene, {rhi::use(hdr_, storage_read_write), rhi::use(audit_, storage_write)}, pipelines,
-                    group_, desc_.audit ? -1.0f : desc_.min_transmittance, "abuffer.resolve");
+    compositor_.begin(cmd, "abuffer.audit");
+    for (const StripBand& band : compositor_.lists().bands()) {
+        compositor_.lists().record(cmd, band, depth, scene, items);
+        compositor_.record(cmd, band, scene, {}, resolve_, group_, "abuffer.resolve");
     }
 }
 

@@ -4,7 +4,7 @@
 /// Deferred translucency: coverage, order, alpha and transmittance exact in every pixel, light on one translucent
 /// surface a pixel, in the lighting pass of what is opaque.
 #include <pellucid/gpu/interleaved.h>
-#include <pellucid/passes/fragment_lists.hpp>
+#include <pellucid/passes/list_compositor.hpp>
 #include <pellucid/shaders/interleaved.hpp>
 
 namespace pellucid {
@@ -12,7 +12,7 @@ namespace pellucid {
 struct InterleavedDesc {
     FragmentDesc fragments = {};
     std::uint64_t memory_budget = 0;  ///< [byte] for stored fragments; 0: what the device can bind
-    float min_transmittance = 0;      ///< a pixel is done where less gets through; 0: only what nothing can change
+    float min_transmittance = 0;      ///< a pixel is done where no more gets through; 0: only what nothing can change
     bool audit = false;               ///< keep how many surfaces were lit for each pixel, and composite them all
 };
 
@@ -47,41 +47,29 @@ public:
     void record_merge(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                       std::span<const DrawItem> items) const;
 
-    [[nodiscard]] std::size_t bands() const { return lists_.bands().size(); }
-    [[nodiscard]] std::uint64_t pool_bytes() const { return lists_.bytes(); }
-    /// r32_uint `[h, w]`: surfaces lit for each pixel; 1 × 1 unless `audit`.
-    [[nodiscard]] rhi::Texture lit() const { return audit_; }
-    /// Calls `visit(name, bytes)` for each buffer and texture that the pass owns.
-    template <class F>
-    void each_resource(F&& visit) const {
-        lists_.each_resource(visit);
-        const Extent2D size = desc_.audit ? desc_.fragments.size : Extent2D{1, 1};
-        visit("interleaved.audit", std::uint64_t{4} * size.width * size.height);
-    }
+    /// Its audit: surfaces lit for each pixel.
+    [[nodiscard]] const ListCompositor<B>& compositor() const { return compositor_; }
 
 private:
-    using Pipelines = rhi::Unique<typename B::Device, rhi::Pipeline>[PELLUCID_LISTS_CLASS_COUNT];
     [[nodiscard]] rhi::GroupDesc select_group() const {
-        return lists_.walker_group(
+        return compositor_.lists().walker_group(
             {{PELLUCID_INTERLEAVED_NODE, targets_.nodes}, {PELLUCID_INTERLEAVED_LOOK, targets_.looks}}, {}, {},
             "interleaved.select");
     }
     [[nodiscard]] rhi::GroupDesc merge_group() const {
-        return lists_.walker_group({{PELLUCID_INTERLEAVED_TARGET, targets_.hdr}, {PELLUCID_INTERLEAVED_AUDIT, audit_}},
-                                   {{PELLUCID_INTERLEAVED_NODES, targets_.nodes},
-                                    {PELLUCID_INTERLEAVED_LOOKS, targets_.looks},
-                                    {PELLUCID_INTERLEAVED_LIGHT, targets_.light}},
-                                   sampler_, "interleaved.merge");
+        return compositor_.group({{PELLUCID_INTERLEAVED_NODES, targets_.nodes},
+                                  {PELLUCID_INTERLEAVED_LOOKS, targets_.looks},
+                                  {PELLUCID_INTERLEAVED_LIGHT, targets_.light}},
+                                 sampler_, "interleaved.merge");
     }
     [[nodiscard]] Result<void> make_pipelines(typename B::Device& device);
 
     InterleavedDesc desc_;
     InterleavedTargets targets_;
-    FragmentLists<B> lists_;
-    rhi::Unique<typename B::Device, rhi::Texture> audit_;
+    ListCompositor<B> compositor_;
     rhi::Unique<typename B::Device, rhi::Sampler> sampler_;
     rhi::Unique<typename B::Device, rhi::Group> select_group_, merge_group_;
-    Pipelines select_, merge_;
+    typename ListCompositor<B>::Pipelines select_, merge_;
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
@@ -92,19 +80,14 @@ Result<InterleavedPass<B>> InterleavedPass<B>::create(typename B::Device& device
     InterleavedPass pass;
     pass.desc_ = desc;
     pass.targets_ = targets;
-    PELLUCID_TRY(pass.lists_, FragmentLists<B>::create(device,
-                                                       {.fragments = desc.fragments,
-                                                        .content = FragmentContent::surfaces,
-                                                        .memory_budget = desc.memory_budget,
-                                                        .visit_turns = 1 + 9 + desc.fragments.lights},
-                                                       counts));
-    // A binding that is not used still wants an image.
-    PELLUCID_OWN(pass.audit_, device,
-                 device.make_texture({.size = desc.audit ? desc.fragments.size : Extent2D{1, 1},
-                                      .format = rhi::Format::r32_uint,
-                                      .usage = rhi::TextureUsage::storage | rhi::TextureUsage::copy_source |
-                                               rhi::TextureUsage::attachment,
-                                      .debug_name = "interleaved.audit"}));
+    PELLUCID_TRY(pass.compositor_, ListCompositor<B>::create(device,
+                                                             {.lists = {.fragments = desc.fragments,
+                                                                        .content = FragmentContent::surfaces,
+                                                                        .memory_budget = desc.memory_budget,
+                                                                        .visit_turns = 1 + 9 + desc.fragments.lights},
+                                                              .min_transmittance = desc.min_transmittance,
+                                                              .audit = desc.audit},
+                                                             targets.hdr, counts));
     PELLUCID_OWN(pass.sampler_, device, device.make_sampler(texel_sampler("interleaved")));
     PELLUCID_CHECK(pass.make_pipelines(device));
     return pass;
@@ -117,9 +100,7 @@ Result<void> InterleavedPass<B>::make_pipelines(typename B::Device& device) {
     const rhi::Shader* const merges[2][2] = {{&interleaved_merge_8_comp, &interleaved_merge_deep_comp},
                                              {&interleaved_merge_8_comp_exact, &interleaved_merge_deep_comp_exact}};
     const rhi::GroupLayout select_layout = select_group().layout, merge_layout = merge_group().layout;
-    const auto shading = desc_.fragments.constants();
-    const rhi::SpecConstant constants[] = {
-        shading[0], shading[1], {2, desc_.audit ? 1u : 0u}, walk_constant(device.info())};
+    const auto constants = compositor_.constants(device.info());
     for (std::uint32_t c = 0; c < PELLUCID_LISTS_CLASS_COUNT; c += 2) {
         rhi::ComputePipelineDesc pipeline{.compute = selects[c / 2],
                                           .constants = constants,
@@ -138,7 +119,7 @@ Result<void> InterleavedPass<B>::make_pipelines(typename B::Device& device) {
 
 template <rhi::Backend B>
 Result<void> InterleavedPass<B>::prepare(typename B::Device& device, std::span<const gpu::LayerStrip> strips) {
-    PELLUCID_TRY(const bool made, lists_.prepare(device, strips));
+    PELLUCID_TRY(const bool made, compositor_.lists().prepare(device, strips));
     if (!made) return {};
     PELLUCID_OWN(select_group_, device, device.make_group(select_group()));
     PELLUCID_OWN(merge_group_, device, device.make_group(merge_group()));
@@ -154,31 +135,24 @@ void InterleavedPass<B>::record_select(typename B::Commands& cmd, rhi::Texture d
                       .name = "interleaved.clear"});
     cmd.end_render();
     const rhi::Pipeline pipelines[] = {select_[0], select_[1], select_[2], select_[3]};
-    for (const StripBand& band : lists_.bands()) {
-        lists_.record(cmd, band, depth, scene, items);
-        lists_.walk(cmd, band, scene,
-                    {rhi::use(targets_.nodes, storage_write), rhi::use(targets_.looks, storage_write)}, pipelines,
-                    select_group_, 0, "interleaved.select");
+    const FragmentLists<B>& lists = compositor_.lists();
+    for (const StripBand& band : lists.bands()) {
+        lists.record(cmd, band, depth, scene, items);
+        lists.walk(cmd, band, scene, {rhi::use(targets_.nodes, storage_write), rhi::use(targets_.looks, storage_write)},
+                   pipelines, select_group_, 0, "interleaved.select");
     }
 }
 
 template <rhi::Backend B>
 void InterleavedPass<B>::record_merge(typename B::Commands& cmd, rhi::Texture depth, const SceneBinding& scene,
                                       std::span<const DrawItem> items) const {
-    using enum rhi::Access;
-    if (desc_.audit) {
-        cmd.begin_render({.colors = {{.texture = audit_}}, .size = desc_.fragments.size, .name = "interleaved.audit"});
-        cmd.end_render();
-    }
-    const rhi::Pipeline pipelines[] = {merge_[0], merge_[1], merge_[2], merge_[3]};
-    for (const StripBand& band : lists_.bands()) {
+    compositor_.begin(cmd, "interleaved.audit");
+    const rhi::Texture textures[] = {targets_.nodes, targets_.looks, targets_.light};
+    const FragmentLists<B>& lists = compositor_.lists();
+    for (const StripBand& band : lists.bands()) {
         // Only one band at a time is in memory.
-        if (lists_.bands().size() > 1) lists_.record(cmd, band, depth, scene, items);
-        lists_.walk(
-            cmd, band, scene,
-            {rhi::use(targets_.hdr, storage_read_write), rhi::use(audit_, storage_write),
-             rhi::use(targets_.nodes, sampled), rhi::use(targets_.looks, sampled), rhi::use(targets_.light, sampled)},
-            pipelines, merge_group_, desc_.audit ? -1.0f : desc_.min_transmittance, "interleaved.merge");
+        if (lists.bands().size() > 1) lists.record(cmd, band, depth, scene, items);
+        compositor_.record(cmd, band, scene, textures, merge_, merge_group_, "interleaved.merge");
     }
 }
 

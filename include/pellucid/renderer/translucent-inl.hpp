@@ -98,9 +98,8 @@ Result<Image<std::uint32_t>> Translucent<B>::count_layers(typename B::Device& de
 
 template <rhi::Backend B>
 Result<Image<std::uint32_t>> Translucent<B>::read_composited(typename B::Device& device) const {
-    if (settings_->audit && abuffer_) return read_numbers(device, abuffer_->composited(), rhi::Format::r32_uint);
+    if (settings_->audit && compositor()) return read_numbers(device, compositor()->audit(), rhi::Format::r32_uint);
     if (settings_->audit && peel_) return read_numbers(device, peel_->count(), rhi::Format::r32_float);
-    if (settings_->audit && interleaved_) return read_numbers(device, interleaved_->lit(), rhi::Format::r32_uint);
     return Error{Errc::invalid_argument, std::string("nobody counts what the method '") +
                                              name(settings_->transparency) +
                                              "' composites: set audit, and use a method that heeds it"};
@@ -153,13 +152,9 @@ TranslucencyStats Translucent<B>::stats() const {
             lose("layers between the first " + std::to_string(out.passes) + " and the last " +
                  std::to_string(out.passes));
     }
-    if (abuffer_) {
-        out.bands = static_cast<std::uint32_t>(abuffer_->bands());
-        out.pool_bytes = abuffer_->pool_bytes();
-    }
-    if (interleaved_) {
-        out.bands = static_cast<std::uint32_t>(interleaved_->bands());
-        out.pool_bytes = interleaved_->pool_bytes();
+    if (const ListCompositor<B>* const made = compositor()) {
+        out.bands = static_cast<std::uint32_t>(made->lists().bands().size());
+        out.pool_bytes = made->lists().bytes();
     }
     out.exact = out.loses.empty();
     std::vector<TextureReport> resources;
@@ -174,8 +169,7 @@ template <rhi::Backend B>
 void Translucent<B>::add_resources(std::vector<TextureReport>& out) const {
     const auto add = [&](const char* debug_name, std::uint64_t bytes) { out.push_back({debug_name, bytes, false}); };
     if (count_) count_->each_resource(add);
-    if (abuffer_) abuffer_->each_resource(add);
-    if (interleaved_) interleaved_->each_resource(add);
+    if (compositor()) compositor()->each_resource(add);
 }
 
 }  // namespace pellucid

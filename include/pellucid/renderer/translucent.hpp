@@ -106,6 +106,10 @@ private:
         const bool lit = needs_.has(PELLUCID_NEED_NORMALS) && settings_->shading == ShadingStage::compute;
         return lit ? FragmentContent::surfaces : FragmentContent::colors;
     }
+    /// Of the method that lists fragments, where one does.
+    [[nodiscard]] const ListCompositor<B>* compositor() const {
+        return abuffer_ ? &abuffer_->compositor() : interleaved_ ? &interleaved_->compositor() : nullptr;
+    }
     [[nodiscard]] std::uint32_t culls() const {
         return static_cast<std::uint32_t>(std::popcount(scene_->translucent_culls()));
     }
