@@ -37,7 +37,7 @@ public:
     ImageF draw(const Camera& camera, const std::vector<rhi::Rect>& areas = {}) {
         submissions = 0;
         stage.frame(camera, [&](Frame<B>& f) -> Result<void> {
-            pass->begin(f.commands(), areas);
+            pass->begin(areas);
             for (bool more = true; more; ++submissions) {
                 pass->record_layers(f.commands(), stage.scene().binding(), stage.scene().translucent(),
                                     stage.scene().translucent_reversed());

@@ -55,14 +55,14 @@ void Translucent<B>::declare_peel() {
                                                      .layer = (*this)[layer],
                                                      .sum = (*this)[sum],
                                                      .count = count ? (*this)[count] : rhi::Texture{}}));
-            pipelines_ += 3 * culls() + 2;
+            pipelines_ += 3 * culls() + 3;
             return {};
         },
         [this](Frame<B>& frame) -> Result<void> {
             PELLUCID_CHECK(frame.flush());  // the counts
             std::vector<rhi::Rect> areas = layer_areas(count_->tile_depths(), settings_->size);
             bool more = !areas.empty();
-            peel_->begin(frame.commands(), std::move(areas));
+            peel_->begin(std::move(areas));
             while (more) {
                 peel_->record_layers(frame.commands(), scene_->binding(), scene_->translucent(),
                                      scene_->translucent_reversed());
