@@ -22,12 +22,15 @@ float likeness(ivec2 q, uvec4 look, Surface s, vec3 p, float pixel_size) {
     uvec4 other_look = texelFetch(chosen_looks, q, 0);
     if (node.y == 0u || look_instance(other_look) != look_instance(look)) return 0.0;
     Surface other = unpack_surface(node, other_look);
-    vec3 away = view_from_depth(vec2(q) + 0.5, node_depth(node)) - p;
-    float distance = abs(dot(s.normal, away)) / pixel_size;
-    float turn = max(dot(s.normal, other.normal), 0.0);
+    EXACT vec3 away = view_from_depth(vec2(q) + 0.5, node_depth(node)) - p;
+    EXACT float distance = quotient(abs(dot3(s.normal, away)), pixel_size);
+    EXACT float turn = max(dot3(s.normal, other.normal), 0.0);
     vec3 base = abs(other.base - s.base);
-    float look_difference = max(max(base.r, base.g), max(base.b, 4.0 * abs(other.roughness - s.roughness)));
-    return max(1.0 - distance, 0.0) * pow(turn, 32.0) * max(1.0 - 16.0 * look_difference, 0.0);
+    EXACT float look_difference = max(max(base.r, base.g), max(base.b, 4.0 * abs(other.roughness - s.roughness)));
+    EXACT float fit = max(1.0 - distance, 0.0) * max(1.0 - 16.0 * look_difference, 0.0);
+    for (int i = 0; i < 5; ++i) turn = turn * turn;  // its 32nd power
+    fit = fit * turn;
+    return fit;
 }
 
 vec3 light_on(uvec4 node, uvec4 look, Surface s) {
@@ -35,31 +38,33 @@ vec3 light_on(uvec4 node, uvec4 look, Surface s) {
     if (texelFetch(chosen_nodes, pixel, 0).xy == node.xy) return texelFetch(light, pixel, 0).rgb;
     vec3 p = view_from_depth(vec2(pixel) + 0.5, node_depth(node));
     // What a step to the next pixel is at this distance.
-    float w = p.z * frame.clip_depth.z + frame.clip_depth.w;
-    float pixel_size = w * frame.pixel.y / frame.clip_scale.y;
-    vec3 sum = vec3(0.0);
+    EXACT float w = p.z * frame.clip_depth.z + frame.clip_depth.w;
+    EXACT float pixel_size = quotient(w * frame.pixel.y, frame.clip_scale.y);
+    EXACT vec3 sum = vec3(0.0);
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
-    vec2 center = vec2(0.0);
-    float total = 0.0;
+    EXACT vec2 center = vec2(0.0);
+    EXACT float total = 0.0;
     for (int i = 0; i < 9; ++i) {
         ivec2 step = ivec2(i % 3, i / 3) - 1;
         ivec2 q = pixel + step;
         if (step == ivec2(0) || any(lessThan(q, ivec2(0))) || any(greaterThanEqual(q, imageSize(hdr)))) continue;
-        float weight = likeness(q, look, s, p, pixel_size) * (step.x == 0 || step.y == 0 ? 1.0 : 0.25);
+        EXACT float weight = likeness(q, look, s, p, pixel_size) * (step.x == 0 || step.y == 0 ? 1.0 : 0.25);
         if (weight < 1e-3) continue;
         vec3 radiance = texelFetch(light, q, 0).rgb;
-        sum += radiance * weight;
-        center += vec2(step) * weight;
-        total += weight;
+        sum = sum + radiance * weight;
+        center = center + vec2(step) * weight;
+        total = total + weight;
         least = min(least, radiance);
         most = max(most, radiance);
     }
-    vec3 mean = sum / max(total, 1e-3);
-    vec3 spread = most - least;
+    EXACT vec3 mean = sum * quotient(1.0, max(total, 1e-3));
+    EXACT vec3 spread = most - least;
     // Taps on one side only extrapolate; taps that differ have an edge or a highlight between them.
-    bool believed = total > 0.3 && length(center) < 0.5 * total &&
-                    all(lessThanEqual(spread, AGREEMENT * mean + ABSOLUTE_AGREEMENT));
+    EXACT vec3 allowed = AGREEMENT * mean + ABSOLUTE_AGREEMENT;
+    EXACT float off = center.x * center.x + center.y * center.y;
+    EXACT float far = 0.25 * total * total;
+    bool believed = total > 0.3 && off < far && all(lessThanEqual(spread, allowed));
     if (believed) return mean;
     ++tally;
     return light_surface(s, pixel, node_depth(node));
@@ -71,5 +76,6 @@ vec4 fragment_color(uint rank, uint place) {
     uvec4 node = imageLoad(nodes, node_texel(place));
     uvec4 look = imageLoad(looks, node_texel(place));
     Surface s = unpack_surface(node, look);
-    return premultiply(s, s.emissive + light_on(node, look, s));
+    EXACT vec3 radiance = s.emissive + light_on(node, look, s);
+    return premultiply(s, radiance);
 }

@@ -13,5 +13,6 @@ void main() {
     write_gbuffer(s);
     out_depth = gl_FragCoord.z;
     uint id = PELLUCID_SKYX_OPAQUE + 1u + in_draw.w % PELLUCID_SKYX_IDS;
-    out_info = id | uint(s.alpha * 65535.0 + 0.5) << 8u | PELLUCID_SKYX_TRANSLUCENT;
+    precise float alpha = s.alpha * 65535.0;
+    out_info = id | uint(alpha + 0.5) << 8u | PELLUCID_SKYX_TRANSLUCENT;
 }

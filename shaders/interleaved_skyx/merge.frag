@@ -34,8 +34,8 @@ void main() {
         for (int k = 0; k < 4; ++k)
             if (k != i && (depths[i] < depths[k] || (i > k && depths[i] == depths[k]))) ++places[i];
     }
-    vec3 color = vec3(0.0);
-    float alpha = 0.0;
+    precise vec3 color = vec3(0.0);
+    precise float alpha = 0.0;
     uint used[4] = uint[](~0u, ~0u, ~0u, ~0u);
     for (int place = 3; place >= 0; --place)
         for (int i = 0; i < 4; ++i) {
