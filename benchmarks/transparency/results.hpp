@@ -71,7 +71,7 @@ struct BackendResult {
 
 /// Whether a pass of the frame is there for translucent surfaces alone.
 [[nodiscard]] inline bool of_transparency(const char* pass) {
-    for (const char* other : {"gbuffer", "lighting", "background", "tonemap"})
+    for (const char* other : {"gbuffer", "emitted", "lighting", "background", "tonemap"})
         if (std::strcmp(pass, other) == 0) return false;
     return true;
 }

@@ -142,6 +142,44 @@ TEST_CASE("an opaque scene has three passes, three pipelines and the targets of 
     CHECK(classic.bytes - s.bytes == pixels * 20);
 }
 
+TEST_CASE("where no light falls on anything opaque there is neither a G-buffer nor a lighting pass", "[cpu]") {
+    Scene unlit = plain();
+    unlit.materials[0].unlit = true;
+    Scene dark = plain();  // it only glows
+    dark.lights.clear();
+    dark.materials[0].emissive = {1, 1, 1};
+    const RenderSettings off{.transparency = Transparency::sorted, .default_light = false};
+    for (const Scene& scene : {unlit, dark}) {
+        const RenderStats s = stats_of(scene, off);
+        for (const char* name : {"gbuffer", "lighting"}) {
+            CHECK_FALSE(pass(s, name).ran);
+            CHECK(pass(s, name).reason == "no light falls on an opaque surface");
+        }
+        CHECK(pass(s, "emitted").ran);
+        CHECK_FALSE(has(s, "gbuffer.emissive"));
+        CHECK(s.pipelines == 2);
+        // Light on one other surface, or a G-buffer to be read, bring them back.
+        Scene more = scene;
+        if (more.lights.empty()) more.lights.push_back(default_sun());
+        add(more, test::quad(), test::matte({1, 0, 0}));
+        CHECK(pass(stats_of(more, off), "lighting").ran);
+        RenderSettings kept = off;
+        kept.keep_gbuffer = true;
+        CHECK(pass(stats_of(scene, kept), "lighting").ran);
+        // So do translucent surfaces that are lit with what is opaque; others do not.
+        Material glass = test::matte({1, 0, 0});
+        glass.alpha_mode = AlphaMode::blend;
+        more = scene;
+        add(more, test::quad(), glass);
+        CHECK(pass(stats_of(more, off), "emitted").ran);
+        RenderSettings together = off;
+        together.transparency = Transparency::interleaved;
+        CHECK(pass(stats_of(more, together), "lighting").ran);
+    }
+    // A default sun shines on what is not unlit.
+    CHECK(pass(stats_of(dark, {.transparency = Transparency::sorted}), "lighting").ran);
+}
+
 TEST_CASE("what a scene adds is what it costs", "[cpu]") {
     const RenderStats base = stats_of(plain());
     Scene scene = plain();

@@ -22,6 +22,18 @@ Scene rich_scene() {
     add(scene, test::quad(0.4f, 0.4f), test::flat({0.9f, 0.2f, 0.7f, 0.5f}, AlphaMode::blend), at(-0.6, 0.2, 1.2));
     return scene;
 }
+/// The same with holes and colours from a texture.
+Scene masked_rich_scene() {
+    Scene scene = rich_scene();
+    Image8 checks(8, 8, 4);
+    for (std::size_t i = 0; i < checks.data.size(); ++i)
+        checks.data[i] = static_cast<std::uint8_t>(i % 4 == 3 ? (i / 4 + i / 32) % 2 * 255 : i * 37 % 256);
+    scene.images.push_back({checks, "checks"});
+    scene.textures.push_back({.image = 0});
+    scene.materials[1].base_color_texture.texture = 0;
+    scene.materials[1].alpha_mode = AlphaMode::mask;
+    return scene;
+}
 std::size_t different(const ImageF& a, const ImageF& b) {
     REQUIRE(a.data.size() == b.data.size());
     std::size_t count = 0;
@@ -39,7 +51,7 @@ TEMPLATE_LIST_TEST_CASE("building what a scene does not need changes no bit of i
     };
     std::vector<Case> cases = {
         {"empty", {}}, {"varied", test::varied_scene()}, {"rich", rich_scene()}, {"directional", {}},
-        {"unlit", {}}, {"translucent only", {}},         {"default light", {}}};
+        {"unlit", {}}, {"translucent only", {}},         {"default light", {}},  {"rich, nothing opaque is lit", {}}};
     cases[3].scene = test::varied_scene();
     cases[3].scene.lights.resize(1);
     add(cases[4].scene, test::quad(0.5f, 0.5f), test::flat({0.3f, 0.6f, 0.9f, 1}));
@@ -47,6 +59,8 @@ TEMPLATE_LIST_TEST_CASE("building what a scene does not need changes no bit of i
     cases[5].scene.instances.erase(cases[5].scene.instances.begin(), cases[5].scene.instances.begin() + 4);
     cases[6].scene = test::varied_scene();
     cases[6].scene.lights.clear();
+    cases[7].scene = masked_rich_scene();
+    for (Material& m : cases[7].scene.materials) m.unlit = m.alpha_mode != AlphaMode::blend;
     for (const Case& c : cases)
         for (const bool exact : {true, false})
             for (const ShadingStage stage : {ShadingStage::compute, ShadingStage::fragment}) {
@@ -55,6 +69,7 @@ TEMPLATE_LIST_TEST_CASE("building what a scene does not need changes no bit of i
                 settings.shading = stage;
                 settings.background = {0.05f, 0.0501f, 0.33f};  // no halves
                 settings.default_light = c.scene.lights.empty();
+                settings.keep_gbuffer = false;
                 const auto lean = test::shoot<TestType>(*device, c.scene, test::varied_camera(), settings);
                 settings.every_need = true;
                 const auto all = test::shoot<TestType>(*device, c.scene, test::varied_camera(), settings);
@@ -73,6 +88,10 @@ TEMPLATE_LIST_TEST_CASE("the background is the same whether anything is drawn or
     const auto empty = test::shoot<TestType>(*device, {}, away, settings);
     const auto opaque = test::shoot<TestType>(*device, test::varied_scene(), away, settings);
     CHECK(different(empty.hdr, opaque.hdr) == 0);
+    Scene glowing;
+    add(glowing, test::quad(), test::flat({0.3f, 0.6f, 0.9f, 1}));
+    settings.keep_gbuffer = false;
+    CHECK(different(empty.hdr, test::shoot<TestType>(*device, glowing, away, settings).hdr) == 0);
     for (int c = 0; c < 3; ++c)
         CHECK(empty.hdr.texel(3, 5)[c] == half_to_float(half_toward_zero(settings.background[c])));
     CHECK(empty.hdr.texel(3, 5)[3] == 1.0f);

@@ -31,15 +31,18 @@ enum class GBufferLayout : std::uint8_t {
 struct GBufferDesc {
     GBufferLayout layout = GBufferLayout::compact;
     bool emissive = false;                    ///< add the target for emitted radiance
+    bool emitted_only = false;                ///< that target alone, which is the picture: no light falls on anything
     std::uint32_t needs = PELLUCID_NEED_ALL;  ///< PELLUCID_NEED_* of the scene
     std::uint32_t culls = 7;                  ///< bit (1 << Cull) for each way of culling in use
 };
 
-/// `[h, w]` textures of gbuffer_formats(), and d32_float depth (reversed, cleared to 0).
+/// `[h, w]` textures of gbuffer_formats(), or the rgba16_float picture where there is emitted radiance only, and
+/// d32_float depth (reversed, cleared to 0).
 struct GBufferTargets {
     SmallVector<rhi::Texture, 5> colors = {};
     rhi::Texture depth = {};
     Extent2D size = {};
+    float background[3] = {0, 0, 0};  ///< linear radiance that the picture is cleared to; emitted_only
 };
 
 /// Rasterises surfaces into a G-buffer, the same bits on every API; depth test greater-or-equal, so that of two equal
@@ -56,7 +59,7 @@ public:
 
 private:
     CullVariants<B> pipelines_;
-    bool emissive_ = false;
+    bool emitted_only_ = false;
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
@@ -64,11 +67,13 @@ private:
 template <rhi::Backend B>
 Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const GBufferDesc& desc) {
     GBufferPass pass;
-    pass.emissive_ = desc.emissive;
+    pass.emitted_only_ = desc.emitted_only;
     const bool compact = desc.layout == GBufferLayout::compact;
     const rhi::SpecConstant constants[] = {{0, desc.needs}};
     rhi::GraphicsPipelineDesc pipeline{.vertex = &shaders::scene_vert,
-                                       .fragment = compact ? &shaders::gbuffer_frag : &shaders::gbuffer_classic_frag,
+                                       .fragment = desc.emitted_only ? &shaders::gbuffer_emitted_frag
+                                                   : compact         ? &shaders::gbuffer_frag
+                                                                     : &shaders::gbuffer_classic_frag,
                                        .constants = constants,
                                        .scene_group = scene_group_layout(),
                                        .depth = {.format = rhi::Format::d32_float,
@@ -76,8 +81,11 @@ Result<GBufferPass<B>> GBufferPass<B>::create(typename B::Device& device, const 
                                                  .write = true,
                                                  .compare = rhi::Compare::greater_equal},
                                        .debug_name = "gbuffer"};
-    for (const rhi::Format format : gbuffer_formats(desc.layout, desc.emissive))
-        pipeline.colors.push_back({.format = format});
+    if (desc.emitted_only)
+        pipeline.colors.push_back({.format = rhi::Format::rgba16_float});
+    else
+        for (const rhi::Format format : gbuffer_formats(desc.layout, desc.emissive))
+            pipeline.colors.push_back({.format = format});
     PELLUCID_CHECK(pass.pipelines_.create(device, pipeline, desc.culls));
     return pass;
 }
@@ -88,9 +96,12 @@ void GBufferPass<B>::record(typename B::Commands& cmd, const GBufferTargets& tar
     rhi::RenderPassDesc pass{
         .depth = {.texture = targets.depth}, .uses = scene.uses, .size = targets.size, .name = "gbuffer"};
     pass.uses.push_back(rhi::use(scene.indices, rhi::Access::index_read));
-    // What depth says is not covered is never read, so colours need no clear.
+    // What depth says is not covered is never read, so colours need no clear; a picture does.
+    const auto& b = targets.background;
     for (const rhi::Texture texture : targets.colors)
-        pass.colors.push_back({.texture = texture, .load = rhi::Load::discard});
+        pass.colors.push_back({.texture = texture,
+                               .load = emitted_only_ ? rhi::Load::clear : rhi::Load::discard,
+                               .clear = {b[0], b[1], b[2], 1}});
     cmd.begin_render(pass);
     draw_items<B>(cmd, pipelines_, scene, items);
     cmd.end_render();

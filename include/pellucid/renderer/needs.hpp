@@ -14,7 +14,8 @@ namespace pellucid {
 struct SceneNeeds {
     std::uint32_t mask = 0;        ///< PELLUCID_NEED_* of gpu/scene.h
     std::uint32_t lights = 0;      ///< that shine, the default sun among them
-    bool opaque = false;           ///< any opaque or masked instance: a G-buffer and a lighting pass
+    bool opaque = false;           ///< any opaque or masked instance, or translucent ones are lit as they are
+    bool lighting = false;         ///< a G-buffer and a lighting pass: light falls on them, or the G-buffer is kept
     bool translucent = false;      ///< any blended instance that is to be drawn
     bool emissive_target = false;  ///< the G-buffer stores emitted radiance
     [[nodiscard]] bool has(std::uint32_t bits) const noexcept { return (mask & bits) != 0; }
@@ -51,7 +52,7 @@ inline constexpr float default_ambient = 0.25f;
 [[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {
     SceneNeeds needs;
     auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
-    bool lit = false;
+    bool lit = false, lit_opaque = false;
     bool deferred = false;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -66,6 +67,7 @@ inline constexpr float default_ambient = 0.25f;
         mark(PELLUCID_NEED_EMISSIVE, emits);
         mark(PELLUCID_NEED_UNLIT, m.unlit);
         lit = lit || !m.unlit;
+        lit_opaque = lit_opaque || !(m.unlit || blend);
         mark(PELLUCID_NEED_ALPHA_MASK, m.alpha_mode == AlphaMode::mask);
         mark(PELLUCID_NEED_NORMAL_MAPS, m.normal_texture.used() && !m.unlit);
         mark(PELLUCID_NEED_OCCLUSION, m.occlusion_texture.used());
@@ -88,11 +90,14 @@ inline constexpr float default_ambient = 0.25f;
         needs.lights = 1;
     }
     constexpr std::uint32_t lights = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS;
+    const bool shines = needs.has(lights | PELLUCID_NEED_AMBIENT);
+    needs.lighting = needs.opaque && ((lit_opaque && shines) || deferred || settings.keep_gbuffer);
     mark(PELLUCID_NEED_NORMALS, (lit && needs.has(lights)) || (needs.opaque && settings.keep_gbuffer));
     if (settings.every_need) {
         needs.mask = PELLUCID_NEED_ALL;
         needs.emissive_target = true;
         needs.opaque = true;
+        needs.lighting = true;
         needs.translucent = settings.transparency != Transparency::none;
     }
     return needs;

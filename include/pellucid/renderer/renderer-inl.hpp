@@ -35,16 +35,18 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     };
     const bool fragment = settings_.shading == ShadingStage::fragment;
     rhi::TextureUsage hdr_usage = sampled | copy_source | (fragment ? attachment : storage);
-    if (needs_.translucent || !needs_.opaque) hdr_usage |= attachment | storage;
+    if (needs_.translucent || !needs_.lighting) hdr_usage |= attachment | storage;
     hdr_ = target(rhi::Format::rgba16_float, hdr_usage, "hdr");
     display_ = target(rhi::Format::rgba8_unorm, storage | copy_source, "display");
     if (needs_.opaque || needs_.translucent)
         depth_ = target(rhi::Format::d32_float, attachment | sampled | copy_source, "depth");
 
     translucent_.start(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
-    if (needs_.opaque) {
+    if (needs_.lighting) {
         declare_gbuffer();
         declare_lighting(translucent_.declare_before_lighting(colors_, gbuffer_));
+    } else if (needs_.opaque) {
+        declare_emitted();
     } else {
         declare_background();
     }
@@ -125,6 +127,30 @@ void Renderer<B>::declare_lighting(const LightingChanges& changes) {
             return {};
         },
         [this](typename B::Commands& cmd) { lighting_pass_->record(cmd, scene_->binding()); });
+}
+
+/// No light falls on anything opaque: no G-buffer and no lighting pass; what is emitted is the picture.
+template <rhi::Backend B>
+void Renderer<B>::declare_emitted() {
+    graph_.leave_out("gbuffer", "no light falls on an opaque surface");
+    graph_.leave_out("lighting", "no light falls on an opaque surface");
+    graph_.add(
+        {.name = "emitted", .writes = {hdr_, depth_}},
+        [this](typename B::Device& device) -> Result<void> {
+            const glm::vec3 b = settings_.background;
+            gbuffer_ = {.colors = {graph_[hdr_]},
+                        .depth = graph_[depth_],
+                        .size = settings_.size,
+                        .background = {b.x, b.y, b.z}};
+            PELLUCID_TRY(gbuffer_pass_,
+                         GBufferPass<B>::create(
+                             device, {.emitted_only = true, .needs = needs_.mask, .culls = scene_->opaque_culls()}));
+            pipelines_ += static_cast<std::uint32_t>(std::popcount(scene_->opaque_culls()));
+            return {};
+        },
+        [this](typename B::Commands& cmd) {
+            gbuffer_pass_->record(cmd, gbuffer_, scene_->binding(), scene_->opaque());
+        });
 }
 
 /// Nothing opaque: no G-buffer and no lighting pass; one clear stands for both.

@@ -79,6 +79,7 @@ private:
     [[nodiscard]] Result<void> build(const Scene& scene);
     void declare_gbuffer();
     void declare_lighting(const LightingChanges& changes);
+    void declare_emitted();
     void declare_background();
     void declare_tonemap();
     [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);
