@@ -112,7 +112,7 @@ private:
 
     template <rhi::Backend B>
     Result<void> measure_one(rhi::DeviceFor<B>& device, const Case& c, BackendResult& result, const std::string& vtk) {
-        PELLUCID_TRY(const Truth* truth, truth_of(c, result.size));
+        PELLUCID_TRY(const Truth* truth, truth_of(c, result.size, !device.info().software));
         if (truth->max_layers == 0) {
             say("#### " + c.title + "\n\nNo translucent surface is seen: nothing to compare.\n\n");
             return {};
@@ -154,11 +154,11 @@ private:
         return {};
     }
 
-    Result<const Truth*> truth_of(const Case& c, Extent2D size) {
-        const auto key = std::make_tuple(&c, size.width, size.height);
+    Result<const Truth*> truth_of(const Case& c, Extent2D size, bool on_grid) {
+        const auto key = std::make_tuple(&c, size.width, size.height, on_grid);
         auto found = truths_.find(key);
         if (found == truths_.end()) {
-            PELLUCID_TRY(Truth truth, make_truth(c, size));
+            PELLUCID_TRY(Truth truth, make_truth(c, size, on_grid));
             found = truths_.emplace(key, std::move(truth)).first;
         }
         return &found->second;
@@ -191,8 +191,8 @@ private:
     std::vector<Method> methods_;
     std::vector<std::string> names_;
     bool by_default_ = false;
-    std::map<std::string, Case> cases_;                                              ///< by what `--scene` calls them
-    std::map<std::tuple<const Case*, std::uint32_t, std::uint32_t>, Truth> truths_;  ///< by case and size
+    std::map<std::string, Case> cases_;  ///< by what `--scene` calls them
+    std::map<std::tuple<const Case*, std::uint32_t, std::uint32_t, bool>, Truth> truths_;  ///< by case, size, grid
     std::vector<BackendResult> results_;
     std::string markdown_;
 };

@@ -14,6 +14,7 @@ namespace pellucid::bench {
 struct Truth {
     ImageF radiance;   ///< [h, w, 3]
     ImageF opaque;     ///< [h, w, 3] without translucent surfaces
+    ImageF on_grid;    ///< [h, w, 3] `radiance` with corners moved to a grid of 1/256 pixel; empty unless asked for
     Image8 stable;     ///< [h, w, 1] 255: no surface's edge is within 1/64 pixel
     double floor = 0;  ///< scaled RMSE of `radiance` itself once it is stored in binary16, as the target stores it
     std::uint64_t unstable = 0;    ///< pixels
@@ -42,7 +43,7 @@ struct Progress {
 }  // namespace detail
 
 /// Errors: those of `reference::render`.
-[[nodiscard]] inline Result<Truth> make_truth(const Case& c, Extent2D size) {
+[[nodiscard]] inline Result<Truth> make_truth(const Case& c, Extent2D size, bool on_grid) {
     const double start = now_ns();
     const bool unlit_by_file = c.scene.lights.empty() && c.default_light;
     detail::Progress progress{"reference of " + c.name};
@@ -53,11 +54,19 @@ struct Progress {
                                      .stability = true};
     if (isatty(STDERR_FILENO)) options.progress = detail::Progress::report, options.user = &progress;
     PELLUCID_TRY(reference::Picture picture, reference::render(c.scene, c.camera, options));
-    options.stability = options.translucent = false;
+    options.stability = false;
     options.progress = nullptr;
+    reference::Picture moved;
+    options.corner_grid = 256;
+    if (on_grid) {
+        PELLUCID_TRY(moved, reference::render(c.scene, c.camera, options));
+    }
+    options.corner_grid = 0;
+    options.translucent = false;
     PELLUCID_TRY(reference::Picture opaque, reference::render(c.scene, c.camera, options));
 
     Truth out{.radiance = std::move(picture.radiance), .opaque = std::move(opaque.radiance)};
+    out.on_grid = std::move(moved.radiance);
     out.stable = std::move(picture.stable);
     std::uint64_t covered = 0;
     for (const std::uint32_t n : picture.layers.data) {

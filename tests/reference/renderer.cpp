@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <pellucid/reference/composite.hpp>
 #include <pellucid/reference/renderer.hpp>
 #include <pellucid/scene/demo_scene.hpp>
@@ -220,24 +221,62 @@ TEST_CASE("reference: a pixel is stable where an edge is more than 1/64 pixel aw
     for (std::uint32_t x = 0; x < 8; ++x) CHECK((*p.stable.texel(x, 1) == 255) == (x != 3));
 }
 
-TEST_CASE("reference: a pixel is not stable where single precision may order depths otherwise", "[cpu]") {
+TEST_CASE("reference: a pixel is not stable where a device may order depths otherwise", "[cpu]") {
     const Material half = flat({1, 1, 1, 0.5f}, AlphaMode::blend);
     RenderOptions options = small();
     options.stability = true;
     struct Case {
-        double apart;
+        double apart, tilt;  // [m], [rad]
         bool stable;
     };
-    for (const Case c : {Case{0, true}, Case{1e-9, false}, Case{1e-7, false}, Case{1e-5, true}}) {
+    // A pixel is 1/4 m wide.  Sheets at 45 degrees: moving the corners of both by 1/512 pixel, against each other,
+    // moves one through the other if they are 2/4/512 m apart or less.  Moving the sample never does.
+    const double slanted = std::numbers::pi / 4, through = 2.0 / 4 / 512;
+    for (const Case c :
+         {Case{0, 0, true}, Case{1e-9, 0, false}, Case{1e-7, 0, false}, Case{1e-5, 0, true}, Case{0, slanted, true},
+          Case{1e-5, slanted, false}, Case{0.98 * through, slanted, false}, Case{1.02 * through, slanted, true}}) {
         Scene scene;
-        add(scene, quad(4, 4), half, at(0.3, 0.2, 0));
-        add(scene, quad(4, 4), half, at(0.3, 0.2, c.apart));
+        const auto tilted = [&](double z) { return glm::rotate(at(0.3, 0.2, z), c.tilt, glm::dvec3(0, 1, 0)); };
+        add(scene, quad(4, 4), half, tilted(0));
+        add(scene, quad(4, 4), half, tilted(c.apart));
         const auto fragments = must(reference::fragments_at(scene, flat_camera(), options, 2, 3));
         REQUIRE(fragments.size() == 2);
-        CAPTURE(c.apart, fragments[0].depth, fragments[1].depth);
+        CAPTURE(c.apart, c.tilt, fragments[0].depth, fragments[1].depth);
         const Picture p = must(render(scene, flat_camera(), options));
         CHECK((*p.stable.texel(2, 3) == 255) == c.stable);
     }
+}
+
+TEST_CASE("reference: corners move to the nearest point of a grid", "[cpu]") {
+    // The right edge at 4.5 + offset/256 of 8 pixels: a centre on it is not covered.
+    struct Case {
+        double offset;
+        bool covered, covered_on_grid;
+    };
+    for (const Case c :
+         {Case{0.3, true, false}, Case{0.7, true, true}, Case{-0.3, false, false}, Case{1, true, true}}) {
+        Scene scene;
+        add(scene, quad(), flat({1, 1, 1, 1}), at((4.5 + c.offset / 256) / 4 - 2, 0, 0));
+        RenderOptions options = small();
+        CAPTURE(c.offset);
+        CHECK(pixel(must(render(scene, flat_camera(), options)), 4).x == (c.covered ? 1 : 0));
+        options.corner_grid = 256;
+        CHECK(pixel(must(render(scene, flat_camera(), options)), 4).x == (c.covered_on_grid ? 1 : 0));
+    }
+    // What is interpolated moves along: a slope whose corners are 0.3/256 pixel beside the grid is where it would be on
+    // it.
+    Mesh slope = quad(4, 4);
+    for (glm::vec3& p : slope.positions) p.z = p.x;
+    RenderOptions options = small();
+    const auto depth = [&](double offset, std::uint32_t grid) {
+        Scene scene;
+        add(scene, slope, flat({1, 1, 1, 1}), at(offset / 256 / 4, 0, 0));
+        options.corner_grid = grid;
+        return must(fragments_at(scene, flat_camera(), options, 3, 4)).front().depth;
+    };
+    CHECK(depth(0.3, 256) == Approx(depth(0, 0)).epsilon(1e-12));
+    CHECK(std::abs(depth(0.3, 0) - depth(0, 0)) > 1e-6 * depth(0, 0));
+    CHECK(depth(0, 256) == depth(0, 0));
 }
 
 TEST_CASE("reference: fragments_at tells what made the pixel", "[cpu]") {
@@ -315,6 +354,7 @@ TEST_CASE("reference: what it cannot draw it says in one sentence", "[cpu]") {
     says(flat_camera(), {.size = {8, 20000}}, "8x20000");
     says(flat_camera(), {.background = {0, infinity, 0}}, "background");
     says(flat_camera(), {.ambient = {0, 0, std::nan("")}}, "ambient");
+    says(flat_camera(), {.corner_grid = 65537}, "65537 steps a pixel");
     says(flat_camera(), {.lights = {{}, {.intensity = -1, .name = "lamp"}}}, "light 1 (\"lamp\"): its intensity");
     Camera camera{.name = "front"};
     camera.world_from_view[3][0] = std::nan("");

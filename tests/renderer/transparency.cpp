@@ -98,9 +98,21 @@ TEMPLATE_LIST_TEST_CASE("transparency: scenes with known answers", "[gpu]", Back
     for (const Known& k : known) {
         const std::string base = (*folder / k.name).string();
         const Scene scene = must(load_gltf(base + ".gltf"));
-        const Image8 stable = must(read_pgm(base + ".stable.pgm"));
+        Image8 stable = must(read_pgm(base + ".stable.pgm"));
         const ImageF reference = must(read_pfm(base + ".reference.pfm"));
-        RenderSettings settings{.size = {256, 256}, .background = k.background, .default_light = false};
+        // These masks know nothing of corners that are moved to a grid: on GPUs the reference renderer's counts too.
+        if (!device->info().software) {
+            const auto own = must(reference::render(scene, scene.cameras.front(),
+                                                    {.size = {256, 256},
+                                                     .background = glm::dvec3(k.background),
+                                                     .lights = scene.lights,
+                                                     .stability = true}));
+            for (std::size_t i = 0; i < stable.data.size(); ++i) stable.data[i] &= own.stable.data[i];
+        }
+        RenderSettings settings{.size = {256, 256},
+                                .background = k.background,
+                                .transparency = Transparency::sorted,
+                                .default_light = false};
         const ImageF sorted = shoot<TestType>(*device, scene, scene.cameras.front(), settings).hdr;
         (void)report(k.name, TestType::name, Transparency::sorted, sorted, reference, stable);
         for (const Transparency method : exact_methods) {

@@ -89,6 +89,13 @@ public:
     /// near plane (1) or beyond the far end (0).  A triangle whose corners are all in range is never cut by rounding.
     [[nodiscard]] std::optional<double> depth(const SamplePoint& sample) const noexcept;
 
+    /// The same at any sample, extrapolated and not limited to [0,1].  Not finite where the ray is parallel to the
+    /// plane.
+    [[nodiscard]] double extrapolated_depth(const SamplePoint& sample) const noexcept {
+        const glm::dvec3 k = extrapolated_weights(sample);
+        return mixed(v_[0].z, v_[1].z, v_[2].z, k) / mixed(v_[0].w, v_[1].w, v_[2].w, k);
+    }
+
     /// Perspective-correct weights of the corners at a covered sample: each in [0,1], sum 1.
     [[nodiscard]] glm::dvec3 weights(const SamplePoint& sample) const noexcept;
 

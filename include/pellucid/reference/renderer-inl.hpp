@@ -104,10 +104,8 @@ inline void draw_tile(const Prepared& prepared, const PixelRect& rect, std::span
     };
     pixel = 0;
     for (std::int32_t y = rect.top; y < rect.bottom; ++y)
-        for (std::int32_t x = rect.left; x < rect.right; ++x, ++pixel) {
-            const auto a = hits.of(pixel);
-            if (std::adjacent_find(a.begin(), a.end(), depths_too_close) != a.end()) unstable(x, y);
-        }
+        for (std::int32_t x = rect.left; x < rect.right; ++x, ++pixel)
+            if (order_in_doubt(prepared, hits.of(pixel), x, y)) unstable(x, y);
     PixelHits moved;
     for (int i = 0; i < 9; ++i) {
         const int right = i % 3 - 1, down = i / 3 - 1;

@@ -39,7 +39,10 @@ struct RenderOptions {
     BrdfModel brdf = BrdfModel::gltf;  ///< of every lit surface
     bool translucent = true;           ///< false: blended surfaces are left out
     bool stability = false;            ///< also fill Picture::stable, at nine times the rasterisation
-    std::uint32_t threads = 0;         ///< at most this many; 0: as many as the machine has
+    /// N: corners in front of the eye are first moved to the nearest points of a grid of 1/N pixel, as devices move
+    /// them before they rasterise (N = 256 on most); at most 65536.  0: they stay where they are.
+    std::uint32_t corner_grid = 0;
+    std::uint32_t threads = 0;  ///< at most this many; 0: as many as the machine has
     /// Called with the share that is done: rising, 1 at last, one call at a time, from any thread.  Null: not called.
     void (*progress)(void* user, double fraction) = nullptr;
     void* user = nullptr;  ///< passed to `progress`
@@ -51,8 +54,9 @@ struct Picture {
     Image<std::uint32_t> layers;
     /// [h, w, 1] 255 where the fragments up to the first opaque one are the same primitives in the same order at the
     /// pixel's centre and at the eight points that are 1/64 pixel off along x, along y or along both, and no two that
-    /// follow each other have depths that differ by 8 units in the last place of a float or less, but are not equal;
-    /// else 0.  Empty unless `stability` was asked for.
+    /// follow each other, and are not equal, have depths so close that a device may take them the other way round: one
+    /// that rasterises on a grid of 1/256 pixel, and rounds to single precision; else 0.  Empty unless `stability` was
+    /// asked for.
     Image8 stable;
 };
 
@@ -68,8 +72,8 @@ struct Fragment {
 };
 
 /// Draws the scene.  The same bits for any number of threads.
-/// Errors: Errc::invalid_argument for a size out of range, a camera or an instance that is not finite or out of its
-/// documented range, a light that `validate` refuses, more than 2^32 − 2 triangles; Errc::out_of_memory.
+/// Errors: Errc::invalid_argument for a size or a grid out of range, a camera or an instance that is not finite or out
+/// of its documented range, a light that `validate` refuses, more than 2^32 − 2 triangles; Errc::out_of_memory.
 [[nodiscard]] Result<Picture> render(const Scene& scene, const Camera& camera, const RenderOptions& options = {});
 
 /// The fragments that make pixel (x, y), row 0 at the top, nearest first: the blended ones in front of the nearest

@@ -18,6 +18,15 @@
 
 namespace pellucid::reference::detail {
 
+/// A corner in front of the eye, moved in x and y to the nearest point of a grid of 1/`steps` pixel.
+[[nodiscard]] inline glm::dvec4 on_grid(const glm::dvec4& p, Extent2D size, std::uint32_t steps) noexcept {
+    const auto moved = [&](double x, std::uint32_t pixels) {  // row 0 at the top or at the bottom: the same grid
+        const double half = 0.5 * pixels * steps;
+        return (std::nearbyint((x / p.w + 1) * half) / half - 1) * p.w;
+    };
+    return {moved(p.x, size.width), moved(p.y, size.height), p.z, p.w};
+}
+
 /// One instance in draw order.
 struct Draw {
     const Mesh* mesh = nullptr;
@@ -53,7 +62,8 @@ struct Prepared {
         const std::uint32_t* at = draw.corners(primitive);
         const auto corner = [&](std::uint32_t vertex) {
             const glm::dvec4 object(draw.mesh->positions[vertex], 1.0);
-            return clip_from_point(clip, glm::dvec3(draw.view_from_object * object));
+            const glm::dvec4 p = clip_from_point(clip, glm::dvec3(draw.view_from_object * object));
+            return options->corner_grid != 0 && p.w > 0 ? on_grid(p, options->size, options->corner_grid) : p;
         };
         return {corner(at[0]), corner(at[1]), corner(at[2])};
     }
@@ -98,6 +108,9 @@ struct Prepared {
             return Error{Errc::invalid_argument, "the picture's size is " + std::to_string(options.size.width) + "x" +
                                                      std::to_string(options.size.height) + "; each side must be 1 to " +
                                                      std::to_string(max_picture_side)};
+    if (options.corner_grid > 65536)
+        return Error{Errc::invalid_argument, "the grid of corners has " + std::to_string(options.corner_grid) +
+                                                 " steps a pixel; it must have 65536 at most"};
     for (int i = 0; i < 3; ++i)
         for (const auto& [what, value] :
              {std::pair{"background", options.background[i]}, std::pair{"ambient", options.ambient[i]}})

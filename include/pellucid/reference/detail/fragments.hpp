@@ -25,15 +25,6 @@ struct Hit {
     return a.depth_bits != b.depth_bits ? a.depth_bits > b.depth_bits : a.primitive > b.primitive;
 }
 
-/// Whether a device that interpolates depths in single precision may see two neighbours in the other order.  Equal
-/// depths are those of the same triangle drawn twice: they come out equal everywhere.
-[[nodiscard]] inline bool depths_too_close(const Hit& nearer, const Hit& farther) noexcept {
-    constexpr std::uint32_t units = 8;  // of the last place
-    const std::uint32_t apart = nearer.depth_bits > farther.depth_bits ? nearer.depth_bits - farther.depth_bits
-                                                                       : farther.depth_bits - nearer.depth_bits;
-    return nearer.depth != farther.depth && apart <= units;
-}
-
 /// The hits of a rectangle's pixels, each pixel's nearest first and up to its first opaque one.
 struct PixelHits {
     std::vector<Hit> hits;
@@ -52,6 +43,35 @@ struct SamplePlace {
         return sample_point(x + columns, y + rows, size, right, down);
     }
 };
+
+/// How far a device's depth of a hit at the centre of pixel (x, y) may be off: it moves corners to a grid of 1/256
+/// pixel, by half a step at most in x and in y, and the triangle's plane with them; then it rounds.  Not finite for a
+/// plane seen edge-on.
+[[nodiscard]] inline double depth_doubt(const Prepared& prepared, const Hit& hit, std::int64_t x,
+                                        std::int64_t y) noexcept {
+    constexpr double half_step = 0.5 / 256;
+    constexpr double rounding = 4 * 0x1p-23;  // four units in the last place
+    const RasterTriangle triangle = prepared.triangle(prepared.draws[hit.draw], hit.primitive);
+    const auto depth = [&](int columns, int rows) {
+        return triangle.extrapolated_depth(SamplePlace{x, y}.point(prepared.options->size, columns, rows));
+    };
+    const double here = depth(0, 0), slope = std::abs(depth(1, 0) - here) + std::abs(depth(0, 1) - here);
+    return half_step * slope + rounding * hit.depth;
+}
+
+/// Whether a device may see two fragments of a pixel, one behind the other, in the other order.  Equal depths are those
+/// of the same triangle drawn twice: they come out equal everywhere.
+[[nodiscard]] inline bool order_in_doubt(const Prepared& prepared, std::span<const Hit> hits, std::int64_t x,
+                                         std::int64_t y) noexcept {
+    double doubt = hits.size() < 2 ? 0 : depth_doubt(prepared, hits[0], x, y);
+    for (std::size_t i = 1; i < hits.size(); ++i) {
+        const double next = depth_doubt(prepared, hits[i], x, y);
+        const double apart = std::abs(hits[i - 1].depth - hits[i].depth);
+        if (apart != 0 && !(apart > doubt + next)) return true;
+        doubt = next;
+    }
+    return false;
+}
 
 /// The triangle's attributes at a covered sample, and their change to the other column and row of the pixel's quad.
 [[nodiscard]] inline Attributes attributes_at(const Prepared& prepared, const Draw& draw, std::uint32_t primitive,
