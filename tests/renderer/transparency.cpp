@@ -110,8 +110,8 @@ TEMPLATE_LIST_TEST_CASE("transparency: scenes with known answers", "[gpu]", Back
             for (std::size_t i = 0; i < stable.data.size(); ++i) stable.data[i] &= own.stable.data[i];
         }
         RenderSettings settings{.size = {256, 256},
-                                .background = k.background,
                                 .transparency = Transparency::sorted,
+                                .background = k.background,
                                 .default_light = false};
         const ImageF sorted = shoot<TestType>(*device, scene, scene.cameras.front(), settings).hdr;
         (void)report(k.name, TestType::name, Transparency::sorted, sorted, reference, stable);
