@@ -63,5 +63,6 @@ void main() {
     else if (CURVE == PELLUCID_TONEMAP_NEUTRAL) c = neutral(c);
     else if (CURVE == PELLUCID_TONEMAP_ACES) c = aces(c);
     else if (CURVE == PELLUCID_TONEMAP_AGX) c = agx(c);
-    imageStore(display, at, vec4(srgb_encode(clamp(c, 0.0, 1.0)), 1.0));
+    // Rounded here: how a store rounds to eight bits is a device's own affair.
+    imageStore(display, at, vec4(floor(srgb_encode(clamp(c, 0.0, 1.0)) * 255.0 + 0.5) * (1.0 / 255.0), 1.0));
 }
