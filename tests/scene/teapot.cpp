@@ -293,7 +293,7 @@ TEST_CASE("a teapot's mesh is valid at every fineness", "[cpu][teapot]") {
     }
     // The spout's lip, where the border of its outer side has no slope in x any more.
     double lip = 0;
-    const BezierPatch& outer = teapot_patches()[spout.first + 2];
+    const BezierPatch outer = teapot_patches()[spout.first + 2];
     for (int i = 0; i <= 4096; ++i) lip = std::max(lip, point_on(outer, 1, i / 4096.0).x);
     CHECK(make_teapot(64).upper.x == Approx(lip).margin(1e-4));
     CHECK(lip == Approx(3.434).margin(5e-4));
