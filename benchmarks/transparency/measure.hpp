@@ -156,11 +156,12 @@ public:
         for (Contender& entry : contenders_) {
             if (!entry.exact) continue;
             if (expected) {
-                PELLUCID_TRY(const double added, detail::added_error(case_, entry.row.method, entry.picture, *expected,
-                                                                     case_.sampled ? "first exact method" : "reference",
-                                                                     case_.sampled ? nullptr : &slack_,
-                                                                     truth_.on_grid.empty() ? nullptr : &truth_.on_grid,
-                                                                     truth_.stable, out_.exact_bound));
+                PELLUCID_TRY(const double added,
+                             detail::added_error(case_, entry.row.method, entry.picture, *expected,
+                                                 case_.sampled ? "first exact method" : "reference",
+                                                 case_.sampled ? nullptr : &slack_,
+                                                 case_.sampled || truth_.on_grid.empty() ? nullptr : &truth_.on_grid,
+                                                 truth_.stable, out_.exact_bound));
                 entry.row.added_error = std::max(entry.row.added_error, added);
             } else {
                 expected = &entry.picture;

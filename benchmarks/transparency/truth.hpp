@@ -57,11 +57,11 @@ struct Progress {
     options.stability = false;
     options.progress = nullptr;
     reference::Picture moved;
-    options.corner_grid = 256;
     if (on_grid) {
+        options.corner_grid = 256;
         PELLUCID_TRY(moved, reference::render(c.scene, c.camera, options));
+        options.corner_grid = 0;
     }
-    options.corner_grid = 0;
     options.translucent = false;
     PELLUCID_TRY(reference::Picture opaque, reference::render(c.scene, c.camera, options));
 
