@@ -3,6 +3,7 @@
 /// generate_scene NAME FILE.glb: writes one of the project's own scenes as a glTF file; --list names them.
 #include <pellucid/scene/demo_scene.hpp>
 #include <pellucid/scene/gltf_write.hpp>
+#include <pellucid/scene/light_field.hpp>
 #include <pellucid/scene/sample_scenes.hpp>
 #include <cstdio>
 #include <cstring>
@@ -32,6 +33,8 @@ constexpr Sample samples[] = {
      [] { return make_lit_glass(); }},
     {"teapot_grid", "110 translucent teapots of 9,120 triangles each over an opaque floor",
      [] { return make_teapot_grid(); }},
+    {"light_field", "1000 small lights, points and spots, over a floor with pillars, and panes between them",
+     [] { return make_light_field(); }},
     {"sheets", "an opaque sheet behind three translucent ones across the whole view: one colour",
      [] {
          return make_sheets({{.slot = 32, .color = {0.5f, 0.5f, 0.5f, 1}, .opaque = true},

@@ -18,7 +18,7 @@ constexpr bool has_reference = false;
 
 /// Options that are read as text and looked at afterwards.
 struct Texts {
-    std::string size, background, environment, transparency = "auto", lighting = "auto";
+    std::string size, background, environment, transparency = "auto";
     std::string layers, memory_budget, min_transmittance;
     std::vector<std::string> aovs;
     double error_budget = 0;
@@ -35,8 +35,14 @@ void add_picture_options(CLI::App& app, Options& o, Texts& t) {
     add_choice<GBufferLayout>(app, "--gbuffer", o.settings.gbuffer,
                               {{"compact", GBufferLayout::compact}, {"classic", GBufferLayout::classic}},
                               "compact (16 bytes a pixel) or classic (36)");
-    app.add_option("--lighting", t.lighting, "auto or loop: every light at every pixel")
-        ->check(CLI::IsMember({"auto", "loop"}));
+    add_choice<LightAssignment>(app, "--lighting", o.settings.lighting,
+                                {{"auto", LightAssignment::automatic},
+                                 {"loop", LightAssignment::loop},
+                                 {"volumes", LightAssignment::volumes},
+                                 {"tiled", LightAssignment::tiled},
+                                 {"clustered", LightAssignment::clustered}},
+                                "how lights find pixels: auto (by their number), loop (all at each), volumes (drawn), "
+                                "tiled or clustered (lists)");
     add_choice<ShadingStage>(app, "--shading", o.settings.shading,
                              {{"compute", ShadingStage::compute}, {"fragment", ShadingStage::fragment}},
                              "where lighting runs: compute or fragment");

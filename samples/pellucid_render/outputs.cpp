@@ -106,8 +106,10 @@ ordered_json settings_of(const Report& report, const RenderSettings& s) {
     ordered_json json{
         {"transparency", report.translucency.method}, {"brdf", name(s.brdf)}, {"tonemap", name(s.tonemap)}};
     if (report.device)
-        json.update(
-            {{"gbuffer", name(s.gbuffer)}, {"lighting", "loop"}, {"shading", name(s.shading)}, {"exact", s.exact}});
+        json.update({{"gbuffer", name(s.gbuffer)},
+                     {"lighting", name(report.stats.lighting)},
+                     {"shading", name(s.shading)},
+                     {"exact", s.exact}});
     return json;
 }
 
@@ -135,6 +137,10 @@ ordered_json stats_of(const Options& options, const Report& report) {
     json["draws"] = report.stats.draws;
     json["triangles"] = report.stats.triangles;
     json["lights"] = report.stats.lights;
+    if (report.device) {
+        const std::string& why = report.stats.lighting_why;
+        json["lighting"] = {{"method", name(report.stats.lighting)}, {"why", why.empty() ? "asked for" : why}};
+    }
     if (report.comparison) json["comparison"] = ordered_json::parse(report.comparison->json);
     json["warnings"] = report.stats.warnings;
     return json;

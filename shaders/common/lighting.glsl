@@ -4,12 +4,47 @@
 // and the squared smooth spot cone.
 #ifndef PELLUCID_LIGHTING_GLSL
 #define PELLUCID_LIGHTING_GLSL
-#include "common/scene.glsl"
+#include "common/light_lists.glsl"
 #include "common/brdf.glsl"
 
-// Radiance towards the eye at the point `p` in view space.  `to_eye` is unit.
-vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, vec3 p, vec3 to_eye) {
-    Shading s = make_shading(base, metallic, roughness, normal, to_eye);
+// What a lit point is, beside how it reflects.
+struct LitPoint {
+    vec3 p;       // view space
+    vec3 to_eye;  // unit
+    uvec2 lists;  // lights_at
+};
+LitPoint lit_point(ivec2 pixel, vec3 p, bool translucent) {
+    return LitPoint(p, direction_to_eye(p), lights_at(pixel, p, translucent));
+}
+
+// Radiance that a point or spot light makes.  Exactly 0 where its range or cone ends.
+vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
+    LightRecord light = lights[i];
+    EXACT vec3 d = light.position - p;
+    EXACT float d2 = max(dot3(d, d), 1e-6);
+    EXACT float inverse = inversesqrt(d2);
+    EXACT vec3 l = d * inverse;
+    EXACT float n_l = dot3(s.normal, l);
+    EXACT float x = d2 * light.inverse_range_squared;
+    EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
+    EXACT float strength = window * inverse;
+    strength = strength * inverse;
+    if (needs(PELLUCID_NEED_SPOTS) && light.spot_scale > 0.0) {
+        // 1 - cos = |l - axis|²/2 keeps its bits where the cosine has lost them (narrow cones).
+        EXACT vec3 off = l - light.to_light;
+        EXACT float cone = light.spot_edge - 0.5 * dot3(off, off);
+        cone = clamp(cone * light.spot_scale, 0.0, 1.0);
+        strength = strength * cone;
+        strength = strength * cone;
+    }
+    if (!(n_l > 0.0 && strength > 0.0)) return vec3(0.0);
+    EXACT vec3 radiance = reflectance(s, base, metallic, l, n_l) * (light.intensity * strength);
+    return radiance;
+}
+
+// Radiance towards the eye of a surface at a point.
+vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, LitPoint at) {
+    Shading s = make_shading(base, metallic, roughness, normal, at.to_eye);
     EXACT vec3 sum = vec3(0.0);
     if (needs(PELLUCID_NEED_AMBIENT)) sum = base * (frame.ambient * occlusion);
     if (needs(PELLUCID_NEED_DIRECTIONAL)) {
@@ -18,30 +53,24 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
             if (n_l > 0.0) sum = sum + reflectance(s, base, metallic, lights[i].to_light, n_l) * lights[i].intensity;
         }
     }
-    if (needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) {
-        uint end = needs(PELLUCID_NEED_SPOTS) ? frame.light_ends.z : frame.light_ends.y;
-        for (uint i = frame.light_ends.x; i < end; ++i) {
-            LightRecord light = lights[i];
-            EXACT vec3 d = light.position - p;
-            EXACT float d2 = max(dot3(d, d), 1e-6);
-            EXACT float inverse = inversesqrt(d2);
-            EXACT vec3 l = d * inverse;
-            EXACT float n_l = dot3(normal, l);
-            EXACT float x = d2 * light.inverse_range_squared;
-            EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
-            EXACT float strength = window * inverse;
-            strength = strength * inverse;
-            if (needs(PELLUCID_NEED_SPOTS) && i >= frame.light_ends.y) {
-                // 1 - cos = |l - axis|²/2 keeps its bits where the cosine has lost them (narrow cones).
-                EXACT vec3 off = l - light.to_light;
-                EXACT float cone = light.spot_edge - 0.5 * dot3(off, off);
-                cone = clamp(cone * light.spot_scale, 0.0, 1.0);
-                strength = strength * cone;
-                strength = strength * cone;
+    if (!needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) return sum;
+    if (needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) {
+        uint summaries = frame.light_grid.w;
+        for (uint summary = 0u; summary < summaries; ++summary) {
+            uint words = light_word(at.lists, summary);
+            while (words != 0u) {
+                uint word = summary * 32u + uint(findLSB(words));
+                words &= words - 1u;
+                uint bits = light_word(at.lists, summaries + word);
+                while (bits != 0u) {
+                    uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
+                    bits &= bits - 1u;
+                    sum = sum + local_light(i, s, base, metallic, at.p);
+                }
             }
-            if (n_l > 0.0 && strength > 0.0)
-                sum = sum + reflectance(s, base, metallic, l, n_l) * (light.intensity * strength);
         }
+    } else {
+        for (uint i = at.lists.x; i < at.lists.y; ++i) sum = sum + local_light(i, s, base, metallic, at.p);
     }
     return sum;
 }

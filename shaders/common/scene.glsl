@@ -16,6 +16,7 @@ SCENE_BUFFER_READ(PELLUCID_BIND_VERTICES, VertexBuffer) { Vertex vertices[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_INDICES, IndexBuffer) { uint indices[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_MATERIALS, MaterialBuffer) { MaterialRecord materials[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_LIGHTS, LightBuffer) { LightRecord lights[]; };
+SCENE_BUFFER_READ(PELLUCID_BIND_LIGHT_LISTS, LightListBuffer) { uint light_lists[]; };
 
 // Object space → view space.
 vec3 view_position(DrawRecord draw, vec3 p) {

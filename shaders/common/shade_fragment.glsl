@@ -11,8 +11,8 @@ vec4 shade_fragment() {
     EXACT vec3 radiance = s.emissive;
     if (!s.unlit) {
         vec3 p = view_from_depth(gl_FragCoord.xy, gl_FragCoord.z);
-        radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, p,
-                                                direction_to_eye(p));
+        radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal,
+                                                lit_point(ivec2(gl_FragCoord.xy), p, true));
     }
     return premultiply(s, radiance);
 }

@@ -13,8 +13,8 @@ vec4 shade_pixel(ivec2 at) {
     Surface s = p.surface;
     EXACT vec3 radiance = s.emissive;
     if (!(needs(PELLUCID_NEED_UNLIT) && s.unlit))
-        radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, p.position,
-                                                direction_to_eye(p.position));
+        radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal,
+                                                lit_point(at, p.position, false));
     return vec4(min(radiance, vec3(65504.0)), 1.0);
 }
 

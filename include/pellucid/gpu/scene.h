@@ -30,6 +30,10 @@
 #define PELLUCID_NEED_OCCLUSION 2048u
 #define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
 #define PELLUCID_NEED_ALL 8191u
+// Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
+#define PELLUCID_NEED_LIGHT_TILES 8192u
+#define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
+#define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
 
 // Specialisation constant 1: the reflectance model.
 #define PELLUCID_BRDF_GLTF 0u
@@ -55,9 +59,13 @@ struct FrameParams {
     uint reserved;
     vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
-    uvec4 light_ends;  // one past the last directional, point and spot light (they are stored in this order)
+    // One past the last directional light, the last point or spot light that reaches everywhere, and the last one of
+    // all (they are stored in this order); w: first word of the slices' lists.
+    uvec4 light_ends;
+    uvec4 light_grid;   // tiles in a row, lists a tile, words a list, words of a list that summarise the others
+    vec4 light_slices;  // slice = log2(distance along the view) x + y, in 0 … z
 };
-PELLUCID_GPU_SIZE(FrameParams, 160)
+PELLUCID_GPU_SIZE(FrameParams, 192)
 PELLUCID_GPU_OFFSET(FrameParams, ambient, 96)
 PELLUCID_GPU_OFFSET(FrameParams, light_ends, 144)
 
@@ -127,12 +135,12 @@ struct MaterialRecord {
 PELLUCID_GPU_SIZE(MaterialRecord, 224)
 PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 
-// Scene group, PELLUCID_BIND_LIGHTS: directional, then point, then spot lights.
+// Scene group, PELLUCID_BIND_LIGHTS: in the order of FrameParams::light_ends.
 struct LightRecord {
     vec3 position;                // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited
     vec3 to_light;                // view, unit, against the way the light travels: directional and spot
-    float spot_scale;             // 1 / (cos inner - cos outer)
+    float spot_scale;             // 1 / (cos inner - cos outer); 0: a point light
     vec3 intensity;               // colour times [lx] or [cd]
     float spot_edge;              // 1 - cos outer
 };

@@ -143,20 +143,10 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     std::vector<gpu::MaterialRecord> materials;
     for (const Material& m : scene.materials) materials.push_back(gpu_material(m, plan));
 
-    // Lights are stored by kind, so that a shader needs no branch on it.
-    out.light_sources_ = scene.lights;
-    if (scene.lights.empty() && settings.default_light) {
-        out.light_sources_.push_back(default_sun());
-        out.ambient_ = true;
-    }
-    std::stable_sort(out.light_sources_.begin(), out.light_sources_.end(),
-                     [](const Light& a, const Light& b) { return a.kind < b.kind; });
-    auto ends_at = [&](LightKind kind) {
-        return static_cast<std::uint32_t>(std::count_if(out.light_sources_.begin(), out.light_sources_.end(),
-                                                        [&](const Light& l) { return l.kind <= kind; }));
-    };
-    out.light_ends_ = {ends_at(LightKind::directional), ends_at(LightKind::point), ends_at(LightKind::spot), 0};
-    out.light_records_.resize(std::max<std::size_t>(1, out.light_sources_.size()));
+    PELLUCID_TRY(out.lights_, GpuLights<B>::create(device, scene, settings, scene_needs(scene, settings)));
+    out.lights_->each_resource([&](const char* debug_name, std::uint64_t bytes) {
+        out.resources_.push_back({debug_name, bytes, false});
+    });
 
     using enum rhi::BufferUsage;
     PELLUCID_CHECK(
@@ -165,8 +155,6 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
         out.make_buffer(device, out.indices_, std::span<const std::uint32_t>(indices), index, "scene.indices"));
     PELLUCID_CHECK(out.make_buffer(device, out.materials_, std::span<const gpu::MaterialRecord>(materials), storage,
                                    "scene.materials"));
-    PELLUCID_CHECK(out.make_buffer(device, out.lights_, std::span<const gpu::LightRecord>(out.light_records_),
-                                   copy_destination, "scene.lights"));
     PELLUCID_CHECK(out.make_textures(device, scene, plan));
     if (out.textures_.size() < PELLUCID_TEXTURE_ARRAYS) {
         // One white texel stands in for the arrays that the scene does not need.
@@ -191,7 +179,8 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     bind_buffer(PELLUCID_BIND_VERTICES, out.vertices_);
     bind_buffer(PELLUCID_BIND_INDICES, out.indices_);
     bind_buffer(PELLUCID_BIND_MATERIALS, out.materials_);
-    bind_buffer(PELLUCID_BIND_LIGHTS, out.lights_);
+    bind_buffer(PELLUCID_BIND_LIGHTS, out.lights_->records());
+    bind_buffer(PELLUCID_BIND_LIGHT_LISTS, out.lights_->lists());
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i) {
         const std::size_t at = std::min<std::size_t>(i, out.textures_.size() - 1);
         group.bindings.push_back(
@@ -203,21 +192,6 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     out.binding_.indices = out.indices_;
     out.place_instances(scene, meshes, settings);
     return out;
-}
-
-template <rhi::Backend B>
-void GpuScene<B>::update_lights(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world) {
-    if (light_sources_.empty() || (lights_written_ && camera.world_from_view == lights_from_)) return;
-    for (std::size_t i = 0; i < light_sources_.size(); ++i)
-        light_records_[i] = gpu_light(light_sources_[i], view_from_world);
-    const auto bytes = rhi::bytes_of(std::span<const gpu::LightRecord>(light_records_));
-    cmd.begin_copy({.uses = {rhi::use(lights_, rhi::Access::copy_write)}, .name = "lights"});
-    constexpr std::size_t step = 65536 / sizeof(gpu::LightRecord) * sizeof(gpu::LightRecord);
-    for (std::size_t at = 0; at < bytes.size(); at += step)
-        cmd.update(lights_, at, bytes.subspan(at, std::min(step, bytes.size() - at)));
-    cmd.end_copy();
-    lights_from_ = camera.world_from_view;
-    lights_written_ = true;
 }
 
 template <rhi::Backend B>
@@ -234,19 +208,18 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
     f.clip_scale = narrow(clip.sx, clip.sy, clip.ox, clip.oy);
     f.clip_depth = narrow(clip.zz, clip.zw, clip.wz, clip.ww);
     f.pixel = narrow(2.0 / settings.size.width, 2.0 / settings.size.height, settings.size.width, settings.size.height);
-    if (ambient_) f.ambient = {default_ambient, default_ambient, default_ambient};
     f.exposure = std::exp2(settings.exposure_ev);
     f.background = to_gpu(settings.background);
     f.camera_position = to_gpu(glm::dvec3(w[3]));
     f.draw_count = instances();
-    f.light_ends = light_ends_;
+    lights_->describe(f);
     return f;
 }
 
 template <rhi::Backend B>
 Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings) {
     const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
-    update_lights(cmd, camera, view_from_world);
+    lights_->update(cmd, camera, view_from_world);
     const gpu::FrameParams frame = frame_params(camera, settings);
     PELLUCID_TRY(binding_.frame, cmd.upload_uniforms(rhi::bytes_of(frame)));
     PELLUCID_TRY(binding_.records, cmd.upload_records(std::max(1u, instances()), sizeof(gpu::DrawRecord)));

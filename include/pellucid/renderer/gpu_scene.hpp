@@ -6,11 +6,13 @@
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
+#include <pellucid/renderer/gpu_lights.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/scene_convert.hpp>
 #include <pellucid/rhi/unique.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <vector>
 
 namespace pellucid {
@@ -39,7 +41,7 @@ public:
     [[nodiscard]] std::uint32_t opaque_culls() const noexcept { return opaque_culls_; }
     [[nodiscard]] std::uint32_t translucent_culls() const noexcept { return translucent_culls_; }
     [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }
-    [[nodiscard]] std::uint32_t lights() const noexcept { return static_cast<std::uint32_t>(light_sources_.size()); }
+    [[nodiscard]] const GpuLights<B>& lights() const noexcept { return *lights_; }
     [[nodiscard]] std::uint64_t triangles() const noexcept { return triangles_; }
     [[nodiscard]] const std::vector<TextureReport>& resources() const noexcept { return resources_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
@@ -58,10 +60,9 @@ private:
                                            rhi::BufferUsage usage, const char* debug_name);
     [[nodiscard]] Result<void> make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan);
     void place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings);
-    void update_lights(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world);
     [[nodiscard]] gpu::FrameParams frame_params(const Camera& camera, const RenderSettings& settings) const;
 
-    rhi::Unique<typename B::Device, rhi::Buffer> vertices_, indices_, materials_, lights_;
+    rhi::Unique<typename B::Device, rhi::Buffer> vertices_, indices_, materials_;
     std::vector<rhi::Unique<typename B::Device, rhi::Texture>> textures_;
     std::vector<rhi::Unique<typename B::Device, rhi::Sampler>> samplers_;
     rhi::Unique<typename B::Device, rhi::Group> group_;
@@ -69,12 +70,7 @@ private:
     std::vector<DrawItem> opaque_, translucent_, reversed_;
     std::vector<SortedItem> sorted_;
     std::vector<std::uint8_t> mirrored_;
-    std::vector<Light> light_sources_;
-    std::vector<gpu::LightRecord> light_records_;
-    glm::dmat4 lights_from_{1.0};
-    bool lights_written_ = false;
-    bool ambient_ = false;
-    gpu::uvec4 light_ends_;
+    std::optional<GpuLights<B>> lights_;
     std::uint32_t opaque_culls_ = 0, translucent_culls_ = 0;
     std::uint64_t triangles_ = 0;
     SceneBinding binding_;

@@ -9,7 +9,9 @@
     how template class measure::GpuTimer<B>;   \
     how template class Graph<B>;               \
     how template class GBufferPass<B>;         \
+    how template class LightListsPass<B>;      \
     how template class LightingPass<B>;        \
+    how template class LightVolumesPass<B>;    \
     how template class SortedForwardPass<B>;   \
     how template class LayerCountPass<B>;      \
     how template class AbufferPass<B>;         \
@@ -19,6 +21,7 @@
     how template class InterleavedPass<B>;     \
     how template class InterleavedSkyxPass<B>; \
     how template class TonemapPass<B>;         \
+    how template class GpuLights<B>;           \
     how template class GpuScene<B>;            \
     how template class Translucent<B>;         \
     how template class Renderer<B>;

@@ -12,8 +12,13 @@
 namespace pellucid {
 
 struct SceneNeeds {
-    std::uint32_t mask = 0;        ///< PELLUCID_NEED_* of gpu/scene.h
-    std::uint32_t lights = 0;      ///< that shine, the default sun among them
+    std::uint32_t mask = 0;                              ///< PELLUCID_NEED_* of gpu/scene.h
+    std::uint32_t lights = 0;                            ///< that shine, the default sun among them
+    std::uint32_t placed = 0;                            ///< of them, point and spot lights
+    std::uint32_t ranged = 0;                            ///< of those, with a range
+    LightAssignment assignment = LightAssignment::loop;  ///< of placed lights; never automatic
+    std::string assignment_why;                          ///< why, where it is not the one that was asked for
+    LightGrid grid;                                      ///< of tiled and clustered; empty for others
     bool opaque = false;           ///< any opaque or masked instance, or translucent ones are lit as they are
     bool lighting = false;         ///< a G-buffer and a lighting pass: light falls on them, or the G-buffer is kept
     bool translucent = false;      ///< any blended instance that is to be drawn
@@ -48,11 +53,44 @@ inline constexpr float default_ambient = 0.25f;
     return {};
 }
 
+/// Up to so many lights with a place a loop over all of them costs less than lists of them (benchmarks/light_lists).
+inline constexpr std::uint32_t max_looped_lights = 8;
+
+namespace detail {
+
+/// Settles how lights find pixels, once all else is known.
+inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std::uint32_t lit_kinds) {
+    using enum LightAssignment;
+    needs.assignment = settings.lighting;
+    const auto choose = [&](LightAssignment a, std::string why) {
+        needs.assignment = a;
+        needs.assignment_why = std::move(why);
+    };
+    const std::string count = std::to_string(needs.placed) + " point and spot lights";
+    if (settings.lighting == automatic) {
+        if (needs.placed <= max_looped_lights)
+            choose(loop, count + "; up to " + std::to_string(max_looped_lights) + " a loop costs least");
+        else
+            choose(clustered, count + "; from " + std::to_string(max_looped_lights + 1) + " on lists cost least");
+    }
+    if (needs.assignment == volumes && (needs.ranged == 0 || !needs.lighting))
+        choose(loop, needs.lighting ? "no light has a range" : "no light falls on an opaque surface");
+    needs.grid = LightGrid::of(needs.assignment, settings.size, needs.placed, lit_kinds);
+    if ((needs.assignment == tiled || needs.assignment == clustered) && needs.grid.empty())
+        choose(loop, needs.placed == 0 ? "there are no point or spot lights" : "no light falls on any surface");
+    needs.mask |= needs.assignment == tiled       ? PELLUCID_NEED_LIGHT_TILES
+                  : needs.assignment == clustered ? PELLUCID_NEED_LIGHT_CLUSTERS
+                  : needs.assignment == volumes   ? PELLUCID_NEED_LIGHT_VOLUMES
+                                                  : 0u;
+}
+
+}  // namespace detail
+
 /// What drawing `scene` with `settings` takes.
 [[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {
     SceneNeeds needs;
     auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
-    bool lit = false, lit_opaque = false;
+    bool lit = false, lit_opaque = false, lit_translucent = false;
     bool deferred = false;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -68,6 +106,7 @@ inline constexpr float default_ambient = 0.25f;
         mark(PELLUCID_NEED_UNLIT, m.unlit);
         lit = lit || !m.unlit;
         lit_opaque = lit_opaque || !(m.unlit || blend);
+        lit_translucent = lit_translucent || (blend && !m.unlit);
         mark(PELLUCID_NEED_ALPHA_MASK, m.alpha_mode == AlphaMode::mask);
         mark(PELLUCID_NEED_NORMAL_MAPS, m.normal_texture.used() && !m.unlit);
         mark(PELLUCID_NEED_OCCLUSION, m.occlusion_texture.used());
@@ -83,6 +122,8 @@ inline constexpr float default_ambient = 0.25f;
         mark(PELLUCID_NEED_DIRECTIONAL, light.kind == LightKind::directional);
         mark(PELLUCID_NEED_POINTS, light.kind == LightKind::point);
         mark(PELLUCID_NEED_SPOTS, light.kind == LightKind::spot);
+        needs.placed += light.kind == LightKind::directional ? 0 : 1;
+        needs.ranged += light.kind != LightKind::directional && reaches_an_end(light) ? 1 : 0;
     }
     needs.lights = static_cast<std::uint32_t>(scene.lights.size());
     if (scene.lights.empty() && settings.default_light) {
@@ -100,6 +141,10 @@ inline constexpr float default_ambient = 0.25f;
         needs.lighting = true;
         needs.translucent = settings.transparency != Transparency::none;
     }
+    detail::assign_lights(
+        needs, settings,
+        (needs.lighting ? PELLUCID_LIGHTS_OPAQUE : 0u) |
+            (needs.translucent && (lit_translucent || settings.every_need) ? PELLUCID_LIGHTS_TRANSLUCENT : 0u));
     return needs;
 }
 

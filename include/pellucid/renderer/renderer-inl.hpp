@@ -36,6 +36,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     const bool fragment = settings_.shading == ShadingStage::fragment;
     rhi::TextureUsage hdr_usage = sampled | copy_source | (fragment ? attachment : storage);
     if (needs_.translucent || !needs_.lighting) hdr_usage |= attachment | storage;
+    if (needs_.assignment == LightAssignment::volumes) hdr_usage |= storage;
     hdr_ = target(rhi::Format::rgba16_float, hdr_usage, "hdr");
     display_ = target(rhi::Format::rgba8_unorm, storage | copy_source, "display");
     if (needs_.opaque || needs_.translucent)
@@ -44,11 +45,16 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     translucent_.start(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
     if (needs_.lighting) {
         declare_gbuffer();
-        declare_lighting(translucent_.declare_before_lighting(colors_, gbuffer_));
+        const LightingChanges changes = translucent_.declare_before_lighting(colors_, gbuffer_);
+        declare_light_lists(changes.depth ? changes.depth : depth_);
+        declare_lighting(changes);
+        declare_light_volumes(changes);
     } else if (needs_.opaque) {
         declare_emitted();
+        declare_light_lists(depth_);
     } else {
         declare_background();
+        declare_light_lists(depth_);
     }
     translucent_.declare_after_lighting();
     declare_tonemap();
@@ -95,6 +101,23 @@ void Renderer<B>::declare_gbuffer() {
 }
 
 template <rhi::Backend B>
+void Renderer<B>::declare_light_lists(GraphTexture depth) {
+    if (needs_.grid.empty()) return;
+    GraphPassDesc fill{.name = "light_lists", .live = true};
+    if (needs_.grid.slices == 0) fill.reads.push_back(depth);
+    graph_.add(
+        fill,
+        [this, depth](typename B::Device& device) -> Result<void> {
+            const GpuLights<B>& lights = scene_->lights();
+            PELLUCID_TRY(light_lists_pass_, LightListsPass<B>::create(device, needs_.grid, lights.bounds(),
+                                                                      lights.lists(), graph_[depth]));
+            pipelines_ += light_lists_pass_->pipelines();
+            return {};
+        },
+        [this](typename B::Commands& cmd) { light_lists_pass_->record(cmd, scene_->binding()); });
+}
+
+template <rhi::Backend B>
 void Renderer<B>::declare_lighting(const LightingChanges& changes) {
     const GraphTexture depth = changes.depth ? changes.depth : depth_;
     const GraphTexture output = changes.output ? changes.output : hdr_;
@@ -115,18 +138,35 @@ void Renderer<B>::declare_lighting(const LightingChanges& changes) {
                 layers = {.nodes = graph_[changes.nodes],
                           .looks = graph_[changes.looks],
                           .output = graph_[changes.layer_light]};
-            PELLUCID_TRY(lighting_pass_, LightingPass<B>::create(device,
-                                                                 {.layout = settings_.gbuffer,
-                                                                  .emissive = needs_.emissive_target,
-                                                                  .stage = settings_.shading,
-                                                                  .brdf = settings_.brdf,
-                                                                  .needs = needs_.mask,
-                                                                  .exact = settings_.exact},
-                                                                 surfaces, graph_[output], layers));
+            PELLUCID_TRY(lighting_pass_,
+                         LightingPass<B>::create(device, lighting_desc(), surfaces, graph_[output], layers));
             ++pipelines_;
             return {};
         },
         [this](typename B::Commands& cmd) { lighting_pass_->record(cmd, scene_->binding()); });
+}
+
+/// Lights that are drawn as volumes add to what the lighting pass wrote.
+template <rhi::Backend B>
+void Renderer<B>::declare_light_volumes(const LightingChanges& changes) {
+    if (needs_.assignment != LightAssignment::volumes) return;
+    const GraphTexture depth = changes.depth ? changes.depth : depth_;
+    const GraphTexture output = changes.output ? changes.output : hdr_;
+    GraphPassDesc add{.name = "light_volumes", .reads = {depth, output}, .writes = {output}};
+    for (const GraphTexture t : colors_) add.reads.push_back(t);
+    graph_.add(
+        add,
+        [this, depth, output](typename B::Device& device) -> Result<void> {
+            GBufferTargets surfaces = gbuffer_;
+            surfaces.depth = graph_[depth];
+            const GpuLights<B>& lights = scene_->lights();
+            PELLUCID_TRY(light_volumes_pass_,
+                         LightVolumesPass<B>::create(device, lighting_desc(), surfaces, graph_[output],
+                                                     lights.sources(), lights.first_ranged()));
+            pipelines_ += light_volumes_pass_->pipelines();
+            return {};
+        },
+        [this](typename B::Commands& cmd) { light_volumes_pass_->record(cmd, scene_->binding()); });
 }
 
 /// No light falls on anything opaque: no G-buffer and no lighting pass; what is emitted is the picture.
@@ -254,10 +294,16 @@ RenderStats Renderer<B>::stats() const {
                       .pipelines = pipelines_ + translucent_.pipelines(),
                       .draws = static_cast<std::uint32_t>(scene_->opaque().size() + scene_->translucent().size()),
                       .triangles = scene_->triangles(),
-                      .lights = scene_->lights(),
+                      .lights = scene_->lights().size(),
+                      .lighting = needs_.assignment,
+                      .lighting_why = needs_.assignment_why,
                       .translucency = translucent_.stats(),
                       .warnings = warnings_};
     translucent_.add_resources(stats.resources);
+    if (light_volumes_pass_)
+        light_volumes_pass_->each_resource([&](const char* debug_name, std::uint64_t bytes) {
+            stats.resources.push_back({debug_name, bytes, false});
+        });
     stats.resources.insert(stats.resources.end(), scene_->resources().begin(), scene_->resources().end());
     stats.warnings.insert(stats.warnings.end(), scene_->warnings().begin(), scene_->warnings().end());
     for (const TextureReport& r : stats.resources) stats.bytes += r.bytes;

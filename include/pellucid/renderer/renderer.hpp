@@ -5,6 +5,7 @@
 #include <pellucid/core/half.hpp>
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/gbuffer.hpp>
+#include <pellucid/passes/light_volumes.hpp>
 #include <pellucid/passes/lighting.hpp>
 #include <pellucid/passes/tonemap.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
@@ -27,6 +28,8 @@ struct RenderStats {
     std::uint32_t draws = 0;               ///< a frame
     std::uint64_t triangles = 0;           ///< of the scene's instances
     std::uint32_t lights = 0;
+    LightAssignment lighting = LightAssignment::loop;
+    std::string lighting_why;           ///< where it is not the one that was asked for
     TranslucencyStats translucency;     ///< of the last frame
     std::vector<std::string> warnings;  ///< of the scene and of its upload
 };
@@ -55,6 +58,11 @@ public:
     /// settings.keep_gbuffer and an opaque surface in the scene, else `invalid_argument`.
     [[nodiscard]] Result<rhi::Texels> read_gbuffer(std::size_t index);
 
+    /// The words of needs().grid (gpu/light_lists.h) of the last frame; waits.  Empty for methods without lists.
+    [[nodiscard]] Result<std::vector<std::uint32_t>> read_light_lists() {
+        return rhi::download<B, std::uint32_t>(*device_, scene_->lights().lists(), needs_.grid.bytes() / 4);
+    }
+
     /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
     /// own and waits.  `unsupported` on devices without float32_blending.
     [[nodiscard]] Result<Image<std::uint32_t>> count_layers();
@@ -78,10 +86,20 @@ private:
     explicit Renderer(typename B::Device& device) : device_(&device) {}
     [[nodiscard]] Result<void> build(const Scene& scene);
     void declare_gbuffer();
+    void declare_light_lists(GraphTexture depth);
     void declare_lighting(const LightingChanges& changes);
+    void declare_light_volumes(const LightingChanges& changes);
     void declare_emitted();
     void declare_background();
     void declare_tonemap();
+    [[nodiscard]] LightingDesc lighting_desc() const {
+        return {.layout = settings_.gbuffer,
+                .emissive = needs_.emissive_target,
+                .stage = settings_.shading,
+                .brdf = settings_.brdf,
+                .needs = needs_.mask,
+                .exact = settings_.exact};
+    }
     [[nodiscard]] Result<ImageF> read_float(rhi::Texture texture);
 
     typename B::Device* device_;
@@ -93,7 +111,9 @@ private:
     SmallVector<GraphTexture, 5> colors_;
     GBufferTargets gbuffer_;
     std::optional<GBufferPass<B>> gbuffer_pass_;
+    std::optional<LightListsPass<B>> light_lists_pass_;
     std::optional<LightingPass<B>> lighting_pass_;
+    std::optional<LightVolumesPass<B>> light_volumes_pass_;
     Translucent<B> translucent_;
     std::optional<TonemapPass<B>> tonemap_pass_;
     std::optional<FrameClock<B>> clock_;

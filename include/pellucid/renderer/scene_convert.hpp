@@ -128,6 +128,26 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
     return r;
 }
 
+/// Centre (view space) and radius [m] of a sphere around all that a point or spot light reaches, a ten-thousandth
+/// larger than it is, so that no rounding leaves a pixel out; 1e30 for one without a range.
+[[nodiscard]] inline gpu::vec4 gpu_light_bounds(const Light& light, const glm::dmat4& view_from_world) {
+    glm::dvec3 center = light.position;
+    double radius = light.range;
+    if (!reaches_an_end(light)) {
+        radius = 1e30;
+    } else if (light.kind == LightKind::spot) {
+        // The circle through the tip and the rim of a narrow cone's cap; around the rim of a wide one.
+        const double c = std::cos(light.outer_cone);
+        const bool narrow = c * c > 0.5;
+        const double along = narrow ? 0.5 * radius / c : radius * c;
+        radius = narrow ? along : radius * std::sin(light.outer_cone);
+        center += along * light.direction;
+    }
+    const gpu::vec3 e = to_gpu(glm::dvec3(view_from_world * glm::dvec4(center, 1)));
+    const double grown = 1.0001 * radius + 1e-6 * (std::abs(e.x) + std::abs(e.y) + std::abs(e.z));
+    return {e.x, e.y, e.z, static_cast<float>(grown)};
+}
+
 /// Writes an instance's matrices and mirroring into `r`.  The normal matrix is scaled so that its largest element is 1.
 inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
     const glm::dmat3 m(view_from_object);

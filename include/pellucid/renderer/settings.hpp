@@ -4,6 +4,7 @@
 /// What a user may ask of the renderer.  Every default is what a first picture wants.
 #include <pellucid/core/image.hpp>
 #include <pellucid/passes/gbuffer.hpp>
+#include <pellucid/passes/light_lists.hpp>
 #include <pellucid/passes/lighting.hpp>
 #include <pellucid/passes/tonemap.hpp>
 #include <glm/vec3.hpp>
@@ -105,7 +106,8 @@ struct RenderSettings {
     Extent2D size{1280, 720};  ///< [texel] both in 1 … the device's limit
     Transparency transparency = Transparency::abuffer;
     GBufferLayout gbuffer = GBufferLayout::compact;
-    ShadingStage shading = ShadingStage::compute;  ///< where lighting runs
+    ShadingStage shading = ShadingStage::compute;           ///< where lighting runs
+    LightAssignment lighting = LightAssignment::automatic;  ///< how lights find the pixels that they reach
     Brdf brdf = Brdf::gltf;
     ToneCurve tonemap = ToneCurve::neutral;
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve

@@ -63,7 +63,9 @@ template <rhi::Backend B>
 GraphTexture Translucent<B>::lit_target(const char* debug_name) {
     using enum rhi::TextureUsage;
     const bool fragment = settings_->shading == ShadingStage::fragment;
-    return target(rhi::Format::rgba16_float, sampled | (fragment ? attachment : storage), debug_name);
+    rhi::TextureUsage usage = sampled | (fragment ? attachment : storage);
+    if (needs_.assignment == LightAssignment::volumes) usage |= storage;
+    return target(rhi::Format::rgba16_float, usage, debug_name);
 }
 
 template <rhi::Backend B>

@@ -25,6 +25,32 @@ struct Texels {
     }
 };
 
+namespace detail {
+
+/// The bytes that `copy(commands, buffer)` puts into a buffer, in a copy pass that declares `source`; waits.
+template <Backend B, class Copy>
+[[nodiscard]] Result<std::vector<std::byte>> download(typename B::Device& device, ResourceUse source,
+                                                      std::uint64_t bytes, Copy&& copy) {
+    Unique<typename B::Device, Buffer> buffer;
+    PELLUCID_OWN(buffer, device,
+                 device.make_buffer({.size = bytes,
+                                     .usage = BufferUsage::copy_destination,
+                                     .memory = Memory::readback,
+                                     .debug_name = "readback"}));
+    typename B::Commands* cmd = nullptr;
+    PELLUCID_TRY(cmd, device.begin_frame());
+    cmd->begin_copy({.uses = {source, use(buffer, Access::copy_write)}, .name = "readback"});
+    copy(*cmd, buffer.get());
+    cmd->end_copy();
+    Ticket ticket{};
+    PELLUCID_TRY(ticket, device.submit());
+    PELLUCID_CHECK(device.wait(ticket));
+    const auto mapped = device.mapped(buffer);
+    return std::vector<std::byte>(mapped.begin(), mapped.begin() + static_cast<std::ptrdiff_t>(bytes));
+}
+
+}  // namespace detail
+
 /// Copies one level of `texture` (copy_source usage) and waits.  `desc` gives its level-0 size and its format.
 /// Errors: memory, device loss.
 template <Backend B>
@@ -34,22 +60,24 @@ template <Backend B>
                .format = desc.format,
                .bytes = {}};
     const std::uint64_t bytes = std::uint64_t{out.size.width} * out.size.height * info(desc.format).bytes;
-    Unique<typename B::Device, Buffer> buffer;
-    PELLUCID_OWN(buffer, device,
-                 device.make_buffer({.size = bytes,
-                                     .usage = BufferUsage::copy_destination,
-                                     .memory = Memory::readback,
-                                     .debug_name = "readback"}));
-    typename B::Commands* cmd = nullptr;
-    PELLUCID_TRY(cmd, device.begin_frame());
-    cmd->begin_copy({.uses = {use(texture, Access::copy_read), use(buffer, Access::copy_write)}, .name = "readback"});
-    cmd->copy(texture, buffer, TextureCopy{.mip = mip, .layer = layer});
-    cmd->end_copy();
-    Ticket ticket{};
-    PELLUCID_TRY(ticket, device.submit());
-    PELLUCID_CHECK(device.wait(ticket));
-    const auto mapped = device.mapped(buffer);
-    out.bytes.assign(mapped.begin(), mapped.begin() + static_cast<std::ptrdiff_t>(bytes));
+    PELLUCID_TRY(out.bytes, detail::download<B>(device, use(texture, Access::copy_read), bytes,
+                                                [&](typename B::Commands& cmd, Buffer buffer) {
+                                                    cmd.copy(texture, buffer, TextureCopy{.mip = mip, .layer = layer});
+                                                }));
+    return out;
+}
+
+/// Copies the first `count` values of `buffer` (copy_source usage) and waits.  Errors: memory, device loss.
+template <Backend B, class T>
+[[nodiscard]] Result<std::vector<T>> download(typename B::Device& device, Buffer source, std::size_t count) {
+    if (count == 0) return std::vector<T>{};
+    std::vector<std::byte> bytes;
+    PELLUCID_TRY(bytes, detail::download<B>(device, use(source, Access::copy_read), count * sizeof(T),
+                                            [&](typename B::Commands& cmd, Buffer buffer) {
+                                                cmd.copy(source, buffer, BufferCopy{.size = count * sizeof(T)});
+                                            }));
+    std::vector<T> out(count);
+    std::memcpy(out.data(), bytes.data(), bytes.size());
     return out;
 }
 

@@ -4,6 +4,7 @@
 /// Punctual lights with the units and meanings of KHR_lights_punctual.
 #include <glm/vec3.hpp>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 namespace pellucid {
@@ -21,5 +22,10 @@ struct Light {
     glm::dvec3 direction{0, 0, -1};          ///< world, unit: the way the light travels
     std::string name;
 };
+
+/// Whether a point or spot light ends at its range.
+[[nodiscard]] inline bool reaches_an_end(const Light& light) {
+    return light.range > 0 && light.range < std::numeric_limits<float>::infinity();
+}
 
 }  // namespace pellucid

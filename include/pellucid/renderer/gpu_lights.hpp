@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// The lights of a scene on the GPU: records, bounds, and room for the lists of which light reaches what.
+#include <pellucid/passes/draw_list.hpp>
+#include <pellucid/renderer/needs.hpp>
+#include <pellucid/renderer/scene_convert.hpp>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace pellucid {
+
+/// Owns what lights take.  Records and bounds are in view space: they are written again where the camera moved.
+template <rhi::Backend B>
+class GpuLights {
+public:
+    /// Errors: `unsupported` where the lists would exceed the device's largest storage buffer; those of creation.
+    [[nodiscard]] static Result<GpuLights> create(typename B::Device& device, const Scene& scene,
+                                                  const RenderSettings& settings, const SceneNeeds& needs);
+    /// Precondition: no pass is open.
+    void update(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world);
+    /// Fills in what shaders want to know about lights.
+    void describe(gpu::FrameParams& frame) const;
+
+    [[nodiscard]] std::uint32_t size() const noexcept { return static_cast<std::uint32_t>(sources_.size()); }
+    /// As they are stored: directional ones, then those that reach everywhere, then those with a range.
+    [[nodiscard]] const std::vector<Light>& sources() const noexcept { return sources_; }
+    /// Index of the first light with a range.
+    [[nodiscard]] std::uint32_t first_ranged() const noexcept { return ends_.y; }
+    [[nodiscard]] rhi::Buffer records() const noexcept { return records_; }
+    [[nodiscard]] rhi::Buffer bounds() const noexcept { return bounds_; }
+    [[nodiscard]] rhi::Buffer lists() const noexcept { return lists_; }
+    [[nodiscard]] const LightGrid& grid() const noexcept { return grid_; }
+    /// Calls `add(debug_name, bytes)` for each buffer.
+    template <class Add>
+    void each_resource(Add&& add) const {
+        add("scene.lights", record_data_.size() * sizeof(gpu::LightRecord));
+        if (!grid_.empty()) {
+            add("scene.light_bounds", bound_data_.size() * sizeof(gpu::vec4));
+            add("scene.light_lists", grid_.bytes());
+        }
+    }
+
+private:
+    std::vector<Light> sources_;
+    std::vector<gpu::LightRecord> record_data_;
+    std::vector<gpu::vec4> bound_data_;  ///< of lights with a place
+    rhi::Unique<typename B::Device, rhi::Buffer> records_, bounds_, lists_;
+    LightGrid grid_;
+    gpu::uvec4 ends_;
+    gpu::vec4 slices_{1, 0, 0, 0};
+    glm::dmat4 written_for_{1.0};
+    bool written_ = false;
+    bool ambient_ = false;
+};
+
+// ------------------------------------------------------------------------------------------------------- bodies
+
+template <rhi::Backend B>
+Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scene& scene,
+                                          const RenderSettings& settings, const SceneNeeds& needs) {
+    GpuLights out;
+    out.sources_ = scene.lights;
+    if (scene.lights.empty() && settings.default_light) {
+        out.sources_.push_back(default_sun());
+        out.ambient_ = true;
+    }
+    const auto kind = [](const Light& l) { return l.kind == LightKind::directional ? 0 : reaches_an_end(l) ? 2 : 1; };
+    std::stable_sort(out.sources_.begin(), out.sources_.end(),
+                     [&](const Light& a, const Light& b) { return kind(a) < kind(b); });
+    const auto up_to = [&](int last) {
+        return static_cast<std::uint32_t>(
+            std::count_if(out.sources_.begin(), out.sources_.end(), [&](const Light& l) { return kind(l) <= last; }));
+    };
+    out.grid_ = needs.grid;
+    out.ends_ = {up_to(0), up_to(1), up_to(2), static_cast<gpu::uint>(needs.grid.slice_words())};
+    out.record_data_.resize(std::max<std::size_t>(1, out.sources_.size()));
+    out.bound_data_.resize(std::max(1u, out.ends_.z - out.ends_.x));
+    const std::uint64_t bytes = std::max<std::uint64_t>(16, needs.grid.bytes());
+    if (const std::uint64_t limit = device.info().max_storage_buffer_bytes; bytes > limit)
+        return Error{Errc::unsupported, std::string(name(needs.assignment)) + " lists of " +
+                                            std::to_string(needs.placed) + " lights take " + std::to_string(bytes) +
+                                            " bytes; the largest storage buffer of " + device.info().name + " is " +
+                                            std::to_string(limit) +
+                                            " bytes: draw a smaller picture, or ask for --lighting loop"};
+    const auto make = [&](std::uint64_t size, const char* debug_name) {
+        using enum rhi::BufferUsage;
+        return device.make_buffer({.size = size, .usage = storage | copy_destination | copy_source, .debug_name = debug_name});
+    };
+    PELLUCID_OWN(out.records_, device, make(out.record_data_.size() * sizeof(gpu::LightRecord), "scene.lights"));
+    PELLUCID_OWN(out.lists_, device, make(bytes, "scene.light_lists"));
+    if (!out.grid_.empty()) {
+        PELLUCID_OWN(out.bounds_, device, make(out.bound_data_.size() * sizeof(gpu::vec4), "scene.light_bounds"));
+    }
+    return out;
+}
+
+template <rhi::Backend B>
+void GpuLights<B>::update(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world) {
+    if (sources_.empty() || (written_ && camera.world_from_view == written_for_)) return;
+    const auto write = [&](rhi::Buffer buffer, std::span<const std::byte> bytes) {
+        constexpr std::size_t step = 65536 / 48 * 48;  // whole records
+        for (std::size_t at = 0; at < bytes.size(); at += step)
+            cmd.update(buffer, at, bytes.subspan(at, std::min(step, bytes.size() - at)));
+    };
+    for (std::size_t i = 0; i < sources_.size(); ++i) record_data_[i] = gpu_light(sources_[i], view_from_world);
+    rhi::CopyPassDesc copy{.uses = {rhi::use(records_, rhi::Access::copy_write)}, .name = "lights"};
+    if (!grid_.empty()) copy.uses.push_back(rhi::use(bounds_, rhi::Access::copy_write));
+    cmd.begin_copy(copy);
+    write(records_, rhi::bytes_of(std::span<const gpu::LightRecord>(record_data_)));
+    if (!grid_.empty()) {
+        double nearest = 1e30, farthest = 0;  // distances along the view that any light with a range reaches
+        for (std::size_t i = ends_.x; i < sources_.size(); ++i) {
+            const gpu::vec4 b = bound_data_[i - ends_.x] = gpu_light_bounds(sources_[i], view_from_world);
+            if (i < ends_.y) continue;
+            nearest = std::min<double>(nearest, -b.z - b.w);
+            farthest = std::max<double>(farthest, -b.z + b.w);
+        }
+        // Slices begin where lights begin, but not so near that most of them are spent where nothing is seen.
+        nearest = std::max({nearest, camera.near, farthest * 1e-4, 1e-6});
+        const double octaves = std::log2(std::max(farthest / nearest, 2.0));
+        const double scale = std::max(1u, grid_.slices) / octaves;
+        slices_ = {static_cast<float>(scale), static_cast<float>(-std::log2(nearest) * scale),
+                   static_cast<float>(std::max(1u, grid_.slices) - 1), 0};
+        write(bounds_, rhi::bytes_of(std::span<const gpu::vec4>(bound_data_)));
+    }
+    cmd.end_copy();
+    written_for_ = camera.world_from_view;
+    written_ = true;
+}
+
+template <rhi::Backend B>
+void GpuLights<B>::describe(gpu::FrameParams& frame) const {
+    if (ambient_) frame.ambient = {default_ambient, default_ambient, default_ambient};
+    frame.light_ends = ends_;
+    frame.light_grid = {grid_.tiles.width, grid_.lists, grid_.words, grid_.summaries};
+    frame.light_slices = slices_;
+}
+
+}  // namespace pellucid
