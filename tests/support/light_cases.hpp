@@ -13,7 +13,7 @@ struct LightCase {
     std::string name;
     Scene scene;
     Camera camera;
-    Extent2D size{131, 77};  ///< no whole number of tiles
+    Extent2D size{83, 49};  ///< no whole number of tiles
 };
 
 /// A floor, a sphere on it and a pane over both, without lights, seen from above.
@@ -72,7 +72,7 @@ struct LightCase {
     table("spots of all widths", {down_light({0, 1.5, 1}, 2, 0, 0.004), down_light({1, 1.2, 0.5}, 1.5f, 0.1, 0.3),
                                   down_light({-1, 1, 0.5}, 1.5f, 0.5, 0.78), down_light({-1, 1, -1}, 2, 0.5, 0.79),
                                   down_light({1, 0.8, -0.5}, 1.5f, 0.2, 1.2), down_light({0, 0.9, 0}, 3, 1.5, 1.5707)});
-    for (const std::uint32_t count : {17u, 32u, 33u, 256u, 1024u, 1025u}) {
+    for (const std::uint32_t count : {17u, 32u, 1025u, 256u}) {
         LightCase c{.name = std::to_string(count) + " lights in a field",
                     .scene = make_light_field({.lights = count}),
                     .camera = {}};
