@@ -166,7 +166,9 @@ inline constexpr std::array<std::uint32_t, 4> roughness_bits = {8, 10, 12, 16};
         .stem = "encodings: base colour", .baseline = "cheapest", .error = "linear light in [0,1], absolute"};
     const int count = quick ? 20000 : 1000000;
     for (const ColorEncoding& encoding : color_encodings) {
-        const auto through = [&](double linear) { return decode_color(encoding.form, encode_color(encoding.form, linear)); };
+        const auto through = [&](double linear) {
+            return decode_color(encoding.form, encode_color(encoding.form, linear));
+        };
         ErrorSample linear, signal;  // [1] and [1/255]
         double relative = 0;
         for (int i = 0; i <= count; ++i) {
@@ -209,8 +211,7 @@ inline constexpr std::array<std::uint32_t, 4> roughness_bits = {8, 10, 12, 16};
         const glm::dvec2 ndc = reference::ndc_from_pixel<double>(x, y, size);
         const double distance = near * std::exp(random.uniform(0, std::log(far_over_near)));
         const glm::dvec3 point(ndc.x * distance / view.clip.sx, ndc.y * distance / view.clip.sy, -distance);
-        const glm::dvec3 back =
-            through_position(encoding, view, reference::ndc_from_pixel<float>(x, y, size), point);
+        const glm::dvec3 back = through_position(encoding, view, reference::ndc_from_pixel<float>(x, y, size), point);
         out.add(glm::length(back - point) / glm::length(point));
     }
     return out;
@@ -234,10 +235,11 @@ inline constexpr std::array<std::uint32_t, 4> roughness_bits = {8, 10, 12, 16};
         more.push_back({"camera 1e5 m away, max", max_of(position_errors_at(encoding, 1e4, 1e5, count))});
         table.rows.push_back(error_row("positions", encoding.name, middle, encoding.bytes, std::move(more)));
     }
-    table.notes = {"near 0.1 m, " + std::to_string(count) +
-                       " points uniform in log z for each number; vertices are placed in double and rounded to float "
-                       "once, depth and what is rebuilt from it are float; interpolation by the rasteriser is not in it",
-                   "depths have their bytes because a depth buffer is there anyway; stored positions come on top of it"};
+    table.notes = {
+        "near 0.1 m, " + std::to_string(count) +
+            " points uniform in log z for each number; vertices are placed in double and rounded to float "
+            "once, depth and what is rebuilt from it are float; interpolation by the rasteriser is not in it",
+        "depths have their bytes because a depth buffer is there anyway; stored positions come on top of it"};
     return table;
 }
 

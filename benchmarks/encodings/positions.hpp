@@ -58,7 +58,7 @@ inline constexpr std::array<PositionEncoding, 10> position_encodings = {{
 [[nodiscard]] inline ClipFromView with_range(ClipFromView clip, DepthRange range, double near, double far) noexcept {
     const double depth = far - near;
     clip.zz = range == DepthRange::standard ? -far / depth : range == DepthRange::reversed ? near / depth : 0;
-    clip.zw = range == DepthRange::standard ? -far * near / depth
+    clip.zw = range == DepthRange::standard   ? -far * near / depth
               : range == DepthRange::reversed ? far * near / depth
                                               : near;
     return clip;
@@ -73,14 +73,14 @@ inline constexpr std::array<PositionEncoding, 10> position_encodings = {{
 /// A view: what `through` needs of a camera.
 struct PositionView {
     glm::dmat4 world_from_view{1.0};
-    ClipFromView clip;               ///< with the range of the encoding
+    ClipFromView clip;                ///< with the range of the encoding
     glm::mat4 world_from_clip{1.0f};  ///< its inverse view-projection, computed in double and rounded
 
     PositionView(const Camera& camera, Extent2D size, DepthRange range, double far)
         : world_from_view(camera.world_from_view),
           clip(with_range(clip_from_view(camera, size), range, camera.near, far)) {
-        const glm::dmat4 projection{{clip.sx, 0, 0, 0}, {0, clip.sy, 0, 0}, {0, 0, clip.zz, clip.wz},
-                                    {0, 0, clip.zw, 0}};
+        const glm::dmat4 projection{
+            {clip.sx, 0, 0, 0}, {0, clip.sy, 0, 0}, {0, 0, clip.zz, clip.wz}, {0, 0, clip.zw, 0}};
         world_from_clip = glm::mat4(world_from_view * glm::inverse(projection));
     }
 };
