@@ -17,18 +17,22 @@ namespace {
 using namespace pellucid;
 using namespace pellucid::bench;
 
-/// A family's short name in files, and what its errors are in a plot.
+/// A plot: of which table, which rows of it, and which of their errors.
 struct FamilyPlot {
+    std::size_t table;
     const char* file;
     const char* title;
-    const char* y_label;
     const char* scene;  ///< the rows that are comparable
+    const char* error;  ///< a further number; null: the largest error
+    const char* y_label;
 };
-constexpr std::array<FamilyPlot, 4> plots = {
-    {{"normals", "Normals", "largest angle [degree]", "normals"},
-     {"roughness", "Roughness", "largest error of GGX's peak, roughness 0.02 … 1, relative", "roughness"},
-     {"color", "Base colour", "largest error of linear light", "base colour"},
-     {"positions", "Positions, far/near 1e4, camera at the origin", "largest |Δp|/|p|", "positions"}}};
+constexpr std::array<FamilyPlot, 5> plots = {
+    {{0, "normals", "Normals", "normals", nullptr, "largest angle [degree]"},
+     {1, "roughness", "Roughness", "roughness", nullptr, "largest error of GGX's peak, roughness 0.02 … 1, relative"},
+     {2, "color", "Base colour", "base colour", nullptr, "largest error of linear light"},
+     {3, "positions", "Positions, camera at the origin", "positions", nullptr, "largest |Δp|/|p|, far/near 1e4"},
+     {3, "positions-far", "Positions, camera 1e5 m away", "positions", "camera 1e5 m away, max",
+      "largest |Δp|/|p|, far/near 1e4"}}};
 
 double further(const SpeedErrorRow& row, const char* name) {
     for (const NamedNumber& number : row.more)
@@ -42,7 +46,8 @@ Plot plot_of(const SpeedErrorTable& table, const FamilyPlot& family, const char*
     std::vector<PlotPoint> points;
     for (const SpeedErrorRow& row : table.rows)
         if (row.scene == family.scene && further(row, cost) > 0)
-            points.push_back({further(row, cost), row.max_error, row.method});
+            points.push_back(
+                {further(row, cost), family.error ? further(row, family.error) : row.max_error, row.method});
     return pareto_plot(std::string(family.title) + where, x_label, family.y_label, points);
 }
 
@@ -118,26 +123,27 @@ private:
 
     /// FILE-normals-bytes.svg is the same for every device; FILE-normals-vulkan.svg is of that API's.
     Result<void> draw(const std::string& file) const {
-        for (std::size_t i = 0; i < errors_.size(); ++i) {
-            const std::string name = plots[i].file;
-            PELLUCID_CHECK(write_file(with_suffix(file, name + "-bytes"),
-                                      to_svg(plot_of(errors_[i], plots[i], "B/pixel", "bytes a pixel", ""))));
-        }
-        for (std::size_t t = 0; t < tables_.size(); ++t) {
-            const FamilyPlot& family = plots[t % plots.size()];
-            const rhi::DeviceInfo& device = tables_[t].device;
-            if (device.backend.empty()) continue;
-            const Plot plot = plot_of(tables_[t], family, "ns a value", "encode and decode [ns a value]",
-                                      ": " + device.backend + ", " + device.name);
-            PELLUCID_CHECK(
-                write_file(with_suffix(file, std::string(family.file) + "-" + device.backend), to_svg(plot)));
+        for (const FamilyPlot& family : plots) {
+            const SpeedErrorTable& errors = errors_[family.table];
+            const std::string name = family.file;
+            if (name != "color")  // all of them take three bytes
+                PELLUCID_CHECK(write_file(with_suffix(file, name + "-bytes"),
+                                          to_svg(plot_of(errors, family, "B/pixel", "bytes a pixel", ""))));
+            for (std::size_t first = 0; first < tables_.size(); first += errors_.size()) {
+                const SpeedErrorTable& table = tables_[first + family.table];
+                const rhi::DeviceInfo& device = table.device;
+                if (device.backend.empty()) continue;
+                const Plot plot = plot_of(table, family, "ns a value", "encode and decode [ns a value]",
+                                          ": " + device.backend + ", " + device.name);
+                PELLUCID_CHECK(write_file(with_suffix(file, name + "-" + device.backend), to_svg(plot)));
+            }
         }
         return {};
     }
 
     const Options& options_;
     bool quick_;
-    std::vector<SpeedErrorTable> errors_;  ///< one a family, in the order of `plots`
+    std::vector<SpeedErrorTable> errors_;  ///< one a family: normals, roughness, colour, positions
     std::vector<SpeedErrorTable> tables_;  ///< the same with costs, for each device in turn
     std::vector<std::string> missing_;     ///< why there is no device
 };

@@ -42,6 +42,13 @@ public:
         const glm::vec3 v = next_vector() * 2.0f - 1.0f;
         return v / std::sqrt(std::max(glm::dot(v, v), 1e-12f));
     }
+    /// Three halves of the words that `any_words` of normals.comp decodes.
+    [[nodiscard]] NormalCode any_code(NormalForm form) const {
+        const bool half = form == NormalForm::half_nearest || form == NormalForm::half_truncated;
+        const std::uint32_t word = half ? state_ & 0xBBFFBBFFu : state_;
+        const auto low = static_cast<std::uint16_t>(word), high = static_cast<std::uint16_t>(word >> 16u);
+        return {low, high, high};
+    }
 
 private:
     std::uint32_t state_;
@@ -68,6 +75,15 @@ template <class ErrorOf>
     return kernel_error(pixels, size, [&](KernelValues& values) {
         const glm::vec3 n = values.next_direction();
         return double{glm::length(decode_normal(encoding, encode_normal(encoding, n)) - n)};
+    });
+}
+
+/// What the decoder alone makes of any codes, against vectors that have nothing to do with them.
+[[nodiscard]] inline KernelError decoder_kernel_error(const NormalEncoding& encoding,
+                                                      const std::vector<PixelAt>& pixels, Extent2D size) {
+    return kernel_error(pixels, size, [&](KernelValues& values) {
+        const glm::vec3 n = values.next_direction();
+        return double{glm::length(decode_normal(encoding, values.any_code(encoding.form)) - n)};
     });
 }
 

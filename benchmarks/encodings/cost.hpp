@@ -16,7 +16,7 @@ namespace pellucid::bench {
 struct EncodingKernel {
     std::string name;
     const rhi::Shader* shader;
-    std::array<std::uint32_t, 3> constants;  ///< 1, 2, 3; 0 is not read
+    std::array<std::uint32_t, 4> constants;  ///< 1, 2, 3, 4; 0 is for the scene's shaders
     std::vector<KernelError> expected;       ///< one of them: what the device may round either way
     double factor = 1;                       ///< errors may be this much larger or smaller than expected …
     double slack = 0;                        ///< … and by this besides: the device's own arithmetic
@@ -26,6 +26,7 @@ struct EncodingKernel {
 struct EncodingFamily {
     SpeedErrorTable table;  ///< with its errors; row i is that of kernels[i + 1]
     std::vector<EncodingKernel> kernels;
+    bool has_decoders = false;  ///< kernels[i + 1 + rows] decodes only, where row i encodes and decodes
 };
 
 /// All four families, their expectations for a picture of `size`.
@@ -35,7 +36,7 @@ struct EncodingFamily {
     const rhi::Shader* scalars = &shaders::bench_encodings_scalars_comp;
     const rhi::Shader* positions = &shaders::bench_encodings_positions_comp;
     std::vector<EncodingFamily> out;
-    for (const SpeedErrorTable& table : errors) out.push_back({table, {}});
+    for (const SpeedErrorTable& table : errors) out.push_back({.table = table});
 
     // A component that lies between two codes may go either way: a few values in 10^4 with 16 bits.
     std::vector<EncodingKernel>& n = out[0].kernels;
@@ -54,6 +55,15 @@ struct EncodingFamily {
                      1.02,
                      3e-7});
     }
+
+    for (const NormalEncoding& e : normal_encodings)
+        n.push_back({std::string("normals, decoded: ") + e.name,
+                     normals,
+                     {static_cast<std::uint32_t>(e.form), e.bits, e.precise, 1},
+                     {decoder_kernel_error(e, pixels, size)},
+                     1.001,
+                     1e-5});
+    out[0].has_decoders = true;
 
     std::vector<EncodingKernel>& r = out[1].kernels;
     const auto loop = [&](const auto& value) {
@@ -194,8 +204,11 @@ template <rhi::Backend B>
     std::vector<Work<B>> works;
     for (const EncodingFamily& family : families)
         for (const EncodingKernel& kernel : family.kernels) {
-            const rhi::SpecConstant constants[] = {
-                {0, 0}, {1, kernel.constants[0]}, {2, kernel.constants[1]}, {3, kernel.constants[2]}};
+            const rhi::SpecConstant constants[] = {{0, 0},
+                                                   {1, kernel.constants[0]},
+                                                   {2, kernel.constants[1]},
+                                                   {3, kernel.constants[2]},
+                                                   {4, kernel.constants[3]}};
             rhi::Unique<rhi::DeviceFor<B>, rhi::Pipeline> pipeline;
             PELLUCID_OWN(pipeline, device,
                          device.make_pipeline(rhi::ComputePipelineDesc{.compute = kernel.shader,
@@ -239,10 +252,16 @@ template <rhi::Backend B>
         const bool has_ratio = summarise(own[cheapest]).lowest > 0;
         for (std::size_t i = 0; i < family.table.rows.size(); ++i) {
             SpeedErrorRow& row = family.table.rows[i];
-            const double nanoseconds = summarise(own[i]).median * 1e6 / values;
+            const double scale = 1e6 / values;  // [ms] of a dispatch → [ns] a value
+            std::vector<NamedNumber> more = {{"ns a value", summarise(own[i]).median * scale}};
+            if (family.has_decoders) {
+                const std::vector<double>& decoder = times[first + 1 + i + family.table.rows.size()];
+                more.push_back({"to encode", summarise(differences(times[first + 1 + i], decoder)).median * scale});
+                more.push_back({"to decode", summarise(differences(decoder, times[first])).median * scale});
+            }
+            row.more.insert(row.more.begin(), more.begin(), more.end());
             for (double& ms : own[i]) ms /= BENCH_ENCODINGS_VALUES;  // one value a pixel
             row.milliseconds = summarise(own[i]);
-            row.more.insert(row.more.begin(), {"ns a value", nanoseconds});
         }
         for (std::size_t i = 0; has_ratio && i < family.table.rows.size(); ++i)
             family.table.rows[i].ratio = summarise(ratios(own[i], own[cheapest])).median;

@@ -9,6 +9,7 @@
 SPEC_CONSTANT(1, FORM, ENCODING_NOTHING);
 SPEC_CONSTANT(2, BITS, 16u);
 SPEC_CONSTANT(3, PRECISE, 0u);  // 1: the nearest of four codes is taken
+SPEC_CONSTANT(4, DECODE_ONLY, 0u);  // 1: of any codes
 
 float signed_limit() { return float((1u << (BITS - 1u)) - 1u); }
 float unsigned_limit() { return float((1u << BITS) - 1u); }
@@ -51,24 +52,33 @@ uint nearest_codes(vec3 n) {
     return pack_codes(best);
 }
 
+uvec2 encode(vec3 n) {
+    if (FORM == NORMAL_UNORM_XYZ) return uvec2(pack_codes(unorm_codes(n.xy)), pack_codes(unorm_codes(n.zz)));
+    if (FORM == NORMAL_SNORM_XYZ) return uvec2(pack_codes(snorm_codes(n.xy)), pack_codes(snorm_codes(n.zz)));
+    if (FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED)
+        return uvec2(packHalf2x16(n.xy), packHalf2x16(vec2(n.z, 0.0)));
+    if (FORM == NORMAL_OCTAHEDRAL_UNORM) return uvec2(pack_codes(unorm_codes(octahedron(n))), 0u);
+    if (PRECISE == 0u) return uvec2(pack_codes(snorm_codes(octahedron(n))), 0u);
+    if (BITS == 16u) return uvec2(octahedral_encode(n), 0u);
+    return uvec2(nearest_codes(n), 0u);
+}
+vec3 decode(uvec2 words) {
+    if (FORM == NORMAL_UNORM_XYZ) return normalize(vec3(unorm_values(words.x), unorm_values(words.y).x));
+    if (FORM == NORMAL_SNORM_XYZ) return normalize(vec3(snorm_values(words.x), snorm_values(words.y).x));
+    if (FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED)
+        return normalize(vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x));
+    if (FORM == NORMAL_OCTAHEDRAL_UNORM) return direction(unorm_values(words.x));
+    if (PRECISE != 0u && BITS == 16u) return octahedral_decode(words.x);
+    return direction(snorm_values(words.x));
+}
+// Codes that came from nowhere; exponents of binary16 are kept below that of 1.
+uvec2 any_words() {
+    uvec2 words = uvec2(state, (state >> 16u) | (state << 16u));
+    return FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED ? words & 0xBBFFBBFFu : words;
+}
 vec3 through(vec3 n) {
     if (FORM == ENCODING_NOTHING) return -n;
-    if (FORM == NORMAL_UNORM_XYZ) {
-        uvec2 words = uvec2(pack_codes(unorm_codes(n.xy)), pack_codes(unorm_codes(n.zz)));
-        return normalize(vec3(unorm_values(words.x), unorm_values(words.y).x));
-    }
-    if (FORM == NORMAL_SNORM_XYZ) {
-        uvec2 words = uvec2(pack_codes(snorm_codes(n.xy)), pack_codes(snorm_codes(n.zz)));
-        return normalize(vec3(snorm_values(words.x), snorm_values(words.y).x));
-    }
-    if (FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED) {
-        uvec2 words = uvec2(packHalf2x16(n.xy), packHalf2x16(vec2(n.z, 0.0)));
-        return normalize(vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x));
-    }
-    if (FORM == NORMAL_OCTAHEDRAL_UNORM) return direction(unorm_values(pack_codes(unorm_codes(octahedron(n)))));
-    if (PRECISE == 0u) return direction(snorm_values(pack_codes(snorm_codes(octahedron(n)))));
-    if (BITS == 16u) return octahedral_decode(octahedral_encode(n));
-    return direction(snorm_values(nearest_codes(n)));
+    return decode(DECODE_ONLY != 0u ? any_words() : encode(n));
 }
 
 void main() {
