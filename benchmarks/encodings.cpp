@@ -151,6 +151,9 @@ private:
 Result<void> run(int argc, char** argv) {
     Options options = pass_options();
     PELLUCID_CHECK(options.parse(argc, argv));
+    if (options.text("bandwidth") != "measured")
+        return Error{Errc::invalid_argument,
+                     "--bandwidth: nothing here is compared with the bytes it moves; leave it out"};
     Program program(options);
     const Result<void> status = on_each_backend(options, [&](auto backend) { return program.measure(backend); });
     if (!status && status.error().code == Errc::invalid_argument) return status;

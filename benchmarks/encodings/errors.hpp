@@ -210,7 +210,10 @@ inline constexpr std::array<std::uint32_t, 4> roughness_bits = {8, 10, 12, 16};
         const auto y = static_cast<std::uint32_t>(random.uniform(0, size.height));
         const glm::dvec2 ndc = reference::ndc_from_pixel<double>(x, y, size);
         const double distance = near * std::exp(random.uniform(0, std::log(far_over_near)));
-        const glm::dvec3 point(ndc.x * distance / view.clip.sx, ndc.y * distance / view.clip.sy, -distance);
+        const glm::dvec3 on_ray(ndc.x * distance / view.clip.sx, ndc.y * distance / view.clip.sy, -distance);
+        // The scene holds world coordinates in double; the eye is subtracted there.
+        const glm::dmat3 turn(camera.world_from_view);
+        const glm::dvec3 point = glm::transpose(turn) * (eye + turn * on_ray - eye);
         const glm::dvec3 back = through_position(encoding, view, reference::ndc_from_pixel<float>(x, y, size), point);
         out.add(glm::length(back - point) / glm::length(point));
     }
