@@ -45,7 +45,7 @@ public:
     /// Three halves of the words that `any_words` of normals.comp decodes.
     [[nodiscard]] NormalCode any_code(NormalForm form) const {
         const bool half = form == NormalForm::half_nearest || form == NormalForm::half_truncated;
-        const std::uint32_t word = half ? state_ & 0xBBFFBBFFu : state_;
+        const std::uint32_t word = (half ? state_ & 0xBBFFBBFFu : state_) | 0x04000400u;
         const auto low = static_cast<std::uint16_t>(word), high = static_cast<std::uint16_t>(word >> 16u);
         return {low, high, high};
     }

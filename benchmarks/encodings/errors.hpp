@@ -64,7 +64,7 @@ private:
     for (int fold = 0; fold < 3; ++fold)
         for (const double beside : {0.0, -0.0, 1e-30, -1e-30, 1e-7, -1e-7, 1e-4, -1e-4})
             for (int i = 0; i < count; ++i) {
-                // An offset keeps the angles off the diagonals, whose codes are special; those are among the axes.
+                // An offset keeps the angles off the axes, which are judged apart, and off the diagonals.
                 const double angle = 2 * std::numbers::pi * (i + 0.37) / count;
                 glm::dvec3 d(0);
                 d[fold] = beside;
@@ -79,16 +79,17 @@ private:
     return sample.nonfinite() > 0 ? std::numeric_limits<double>::infinity() : sample.max();
 }
 
-/// A row for `sample`; bytes are those of a pixel until the size of a picture is known (`scale_bytes`).
+/// A row for `sample`; the bytes of a picture are for whoever knows its size.
 [[nodiscard]] inline SpeedErrorRow error_row(const char* family, const char* name, const ErrorSample& sample,
                                              double bytes, std::vector<NamedNumber> more) {
     more.insert(more.begin(), {"B/pixel", bytes});
+    const bool finite = sample.nonfinite() == 0;
     return {.scene = family,
             .method = name,
             .setting = {},
             .milliseconds = {},
-            .rmse = sample.nonfinite() > 0 ? std::numeric_limits<double>::infinity() : sample.rms(),
-            .p999 = sample.nonfinite() > 0 ? std::numeric_limits<double>::infinity() : sample.p999(),
+            .rmse = finite ? sample.rms() : std::numeric_limits<double>::infinity(),
+            .p999 = finite ? sample.p999() : std::numeric_limits<double>::infinity(),
             .max_error = max_of(sample),
             .more = std::move(more)};
 }

@@ -30,10 +30,12 @@ namespace pellucid::bench {
     for (std::size_t i = 0; i < points.size(); ++i) (on_front[i] ? front : beaten).points.push_back(points[i]);
     std::stable_sort(front.points.begin(), front.points.end(),
                      [](const PlotPoint& a, const PlotPoint& b) { return a.x < b.x; });
-    return {.title = std::move(title),
-            .x_label = std::move(x_label),
-            .y_label = std::move(y_label),
-            .series = {std::move(front), std::move(beaten)}};
+    Plot out{.title = std::move(title),
+             .x_label = std::move(x_label),
+             .y_label = std::move(y_label),
+             .series = {std::move(front)}};
+    if (!beaten.points.empty()) out.series.push_back(std::move(beaten));
+    return out;
 }
 
 }  // namespace pellucid::bench

@@ -71,10 +71,11 @@ vec3 decode(uvec2 words) {
     if (PRECISE != 0u && BITS == 16u) return octahedral_decode(words.x);
     return direction(snorm_values(words.x));
 }
-// Codes that came from nowhere; exponents of binary16 are kept below that of 1.
+// Codes that came from nowhere, but never all 0, which is no direction; binary16 stays normal and below 1.
 uvec2 any_words() {
-    uvec2 words = uvec2(state, (state >> 16u) | (state << 16u));
-    return FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED ? words & 0xBBFFBBFFu : words;
+    bool is_half = FORM == NORMAL_HALF || FORM == NORMAL_HALF_TRUNCATED;
+    uint word = (is_half ? state & 0xBBFFBBFFu : state) | 0x04000400u;
+    return uvec2(word, (word >> 16u) | (word << 16u));
 }
 vec3 through(vec3 n) {
     if (FORM == ENCODING_NOTHING) return -n;

@@ -25,4 +25,5 @@ TEST_CASE("a plot's front runs from left to right, and the rest is grey", "[cpu]
     REQUIRE(plot.series[1].points.size() == 1);
     CHECK(plot.series[1].guest);
     CHECK(plot.series[1].points[0].label == "beaten");
+    CHECK(pareto_plot("t", "x", "y", {{1, 1, "a"}}).series.size() == 1);
 }
