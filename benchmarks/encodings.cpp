@@ -97,12 +97,11 @@ public:
     }
 
     Result<void> report() {
-        if (tables_.empty()) {
-            tables_ = errors_;
-            for (SpeedErrorTable& table : tables_)
-                for (const std::string& why : missing_) table.notes.push_back("no times: " + why);
+        if (tables_.empty()) tables_ = errors_;
+        for (SpeedErrorTable& table : tables_) {
+            for (const std::string& why : missing_) table.notes.push_back("not timed: " + why);
+            std::printf("%s\n", to_markdown(table).c_str());
         }
-        for (const SpeedErrorTable& table : tables_) std::printf("%s\n", to_markdown(table).c_str());
         if (const std::string& file = options_.text("json"); !file.empty()) {
             JsonWriter json;
             json.begin_array();

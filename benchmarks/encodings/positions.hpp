@@ -70,7 +70,7 @@ inline constexpr std::array<PositionEncoding, 10> position_encodings = {{
     return static_cast<float>(std::floor(std::clamp(double{depth}, 0.0, 1.0) * limit + 0.5) / limit);
 }
 
-/// A view: what `through` needs of a camera.
+/// A view: what `through_position` needs of a camera.
 struct PositionView {
     glm::dmat4 world_from_view{1.0};
     ClipFromView clip;                ///< with the range of the encoding

@@ -59,7 +59,7 @@ TEST_CASE("every encoding of normals keeps its bound, and octahedral ones come c
 }
 
 TEST_CASE("mean and largest errors of normals are those of an independent emulation", "[cpu]") {
-    // Another program's numbers (3·10^5 directions, emulated in double): mean, largest [degree].
+    // Another program's numbers (3·10^5 directions, emulated in float): mean, largest [degree].
     const struct {
         const char* name;
         double mean, max;
