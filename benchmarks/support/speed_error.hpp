@@ -33,9 +33,9 @@ struct SpeedErrorRow {
 };
 
 struct SpeedErrorTable {
-    std::string stem;      ///< of the pass
-    std::string baseline;  ///< what ratio 1 is
-    rhi::DeviceInfo device;
+    std::string stem;        ///< of the pass
+    std::string baseline;    ///< what ratio 1 is
+    rhi::DeviceInfo device;  ///< without a backend: errors alone, no times
     Machine machine;
     Extent2D size;  ///< [pixel]
     std::vector<SpeedErrorRow> rows;
@@ -104,10 +104,12 @@ inline void write(JsonWriter& json, const SpeedErrorTable& table) {
         }
         out.row(std::move(cells));
     }
+    const std::string where = table.device.backend.empty() ? "without a device"
+                                                           : table.device.backend + " on " + table.device.name + " (" +
+                                                                 table.device.driver + ")";
     std::string text = "### " + table.stem + ", " + std::to_string(table.size.width) + " x " +
-                       std::to_string(table.size.height) + ", " + table.device.backend + " on " + table.device.name +
-                       " (" + table.device.driver + ")\n\n" + markdown(table.machine) + "- error: " + table.error +
-                       "\n";
+                       std::to_string(table.size.height) + ", " + where + "\n\n" + markdown(table.machine) +
+                       "- error: " + table.error + "\n";
     for (const std::string& note : table.notes) text += "- " + note + "\n";
     return text + "\n" + out.text();
 }

@@ -21,7 +21,7 @@ struct PlotSeries {
     std::string name;
     std::vector<PlotPoint> points;
     bool connected = false;  ///< a line through the points, in order: the settings of one method
-    bool guest = false;      ///< somebody else's: drawn as a grey diamond
+    bool guest = false;      ///< not what it is about (somebody else's, or beaten): a grey diamond
 };
 struct Plot {
     std::string title;
