@@ -19,6 +19,7 @@ struct Shading {
     vec3 view;
     vec3 f0;
     vec3 diffuse;  // (1 - metallic) base / pi
+    float n_dot_v;
     float n_v;     // |N·V|
     float alpha2;  // GGX alpha squared
     float view_term;  // sqrt(N·V² (1 - a²) + a²), Smith's lambda for V
@@ -32,7 +33,8 @@ Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, ve
     s.f0 = blend3(vec3(0.04), base, metallic);
     EXACT vec3 d = base * (1.0 - metallic);
     s.diffuse = d * INV_PI;
-    s.n_v = abs(dot3(normal, view));
+    s.n_dot_v = dot3(normal, view);
+    s.n_v = abs(s.n_dot_v);
     EXACT float a = max(roughness * roughness, MIN_ALPHA);
     s.alpha2 = a * a;
     EXACT float k = s.n_v - s.alpha2 * s.n_v;
@@ -42,38 +44,46 @@ Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, ve
     return s;
 }
 
-// f(v, l) N·L for glTF's metallic-roughness model: Trowbridge–Reitz D in the form q = |N×H|² + (N·H a)², which does not
-// cancel near the peak (Lagrange's identity); height-correlated Smith V (Heitz 2014); Schlick F; diffuse (1 - F) rho/pi.
-// h = V + L is not normalised: |N×h|² and (N·h)² are divided by |h|² once.
-vec3 reflect_gltf(Shading s, vec3 l, float n_l) {
+// What lights add up to, before the surface's colours.  F = F0 (1 - x) + x with x = (1 - V·H)^5 does not depend on the
+// light's colour, nor F0 and the diffuse colour on the light, so three sums of light are all that a loop keeps:
+// sum (1 - F) diffuse + D V F = diffuse (1 - F0) unreflected + F0 normal + grazing.
+struct LightSum {
+    vec3 unreflected;  // sum of (1 - x) E N·L; models that are not taken apart: the whole sum
+    vec3 normal;       // sum of (1 - x) D V E N·L
+    vec3 grazing;      // sum of x D V E N·L
+};
+LightSum no_light() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0)); }
+
+// glTF's metallic-roughness model under a light of `illuminance` E at normal incidence: Trowbridge–Reitz D in the form
+// q = |N×H|² + (N·H a)², which does not cancel near the peak (Lagrange's identity); height-correlated Smith V (Heitz
+// 2014); Schlick F; diffuse (1 - F) rho/pi.  h = V + L is not normalised: D V is one quotient with |h|⁴ above.
+void add_gltf(inout LightSum sum, Shading s, vec3 l, float n_l, vec3 illuminance) {
     EXACT vec3 h = s.view + l;
     EXACT float hh = dot3(h, h);
-    if (hh < 1e-12) return vec3(0.0);
+    if (hh < 1e-12) return;
     EXACT vec3 c = cross3(s.normal, h);
-    EXACT float nh = dot3(s.normal, h);
+    EXACT float nh = s.n_dot_v + n_l;
     EXACT float q = nh * nh;
     q = q * s.alpha2;
     q = q + dot3(c, c);
-    EXACT float ratio = quotient(hh, q);
-    EXACT float d = ratio * ratio;
-    d = d * s.alpha2 * INV_PI;
     EXACT float k = n_l - s.alpha2 * n_l;
     k = k * n_l;
     EXACT float light_term = root(k + s.alpha2);
     EXACT float denominator = n_l * s.view_term;
     denominator = denominator + s.n_v * light_term;
-    EXACT float v = quotient(0.5, denominator);
-    EXACT float v_h = 0.5 * root(hh);
-    EXACT float x = max(1.0 - v_h, 0.0);
+    denominator = denominator * q * q;
+    EXACT float lobe = hh * hh * (s.alpha2 * (0.5 * INV_PI));
+    // Only where V + L all but vanishes on the horizon is the product smaller than a float can be.
+    lobe = quotient(lobe, max(denominator, 1e-37));
+    EXACT float x = max(1.0 - 0.5 * root(hh), 0.0);
     EXACT float x2 = x * x;
     EXACT float x5 = x2 * x2;
     x5 = x5 * x;
-    EXACT vec3 f = vec3(1.0) - s.f0;
-    f = f * x5;
-    f = f + s.f0;
-    EXACT vec3 r = (vec3(1.0) - f) * s.diffuse;
-    r = r + f * (d * v);
-    return r * n_l;
+    EXACT vec3 grazing = illuminance * (n_l * x5);
+    EXACT vec3 normal = illuminance * n_l - grazing;
+    sum.unreflected = sum.unreflected + normal;
+    sum.normal = sum.normal + normal * lobe;
+    sum.grazing = sum.grazing + grazing * lobe;
 }
 
 // The source document's own terms, kept to be measured: NoH²(a² - 1) + 1, Schlick's G with k = (r + 1)²/8, and an
@@ -119,9 +129,25 @@ vec3 reflect_blinn_phong(Shading s, vec3 l, float n_l) {
     return r * n_l;
 }
 
-vec3 reflectance(Shading s, vec3 base, float metallic, vec3 l, float n_l) {
-    if (BRDF == PELLUCID_BRDF_SEED) return reflect_seed(s, base, metallic, l, n_l);
-    if (BRDF == PELLUCID_BRDF_BLINN_PHONG) return reflect_blinn_phong(s, l, n_l);
-    return reflect_gltf(s, l, n_l);
+// Adds a light to what was summed so far.  `l`: towards it; N·L > 0.
+void add_light(inout LightSum sum, Shading s, vec3 base, float metallic, vec3 l, float n_l, vec3 illuminance) {
+    if (BRDF == PELLUCID_BRDF_GLTF) {
+        add_gltf(sum, s, l, n_l, illuminance);
+    } else {
+        EXACT vec3 r = BRDF == PELLUCID_BRDF_SEED ? reflect_seed(s, base, metallic, l, n_l)
+                                                  : reflect_blinn_phong(s, l, n_l);
+        EXACT vec3 total = sum.unreflected + r * illuminance;
+        sum.unreflected = total;
+    }
+}
+
+// The radiance that the surface makes of it.
+vec3 reflected(LightSum sum, Shading s) {
+    if (BRDF != PELLUCID_BRDF_GLTF) return sum.unreflected;
+    EXACT vec3 r = (vec3(1.0) - s.f0) * s.diffuse;
+    r = r * sum.unreflected;
+    r = r + s.f0 * sum.normal;
+    r = r + sum.grazing;
+    return r;
 }
 #endif

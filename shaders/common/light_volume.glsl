@@ -13,5 +13,7 @@ void main() {
     if (!p.covered || (needs(PELLUCID_NEED_UNLIT) && p.surface.unlit)) return;
     Surface s = p.surface;
     Shading shading = make_shading(s.base, s.metallic, s.roughness, s.normal, direction_to_eye(p.position));
-    out_light = vec4(local_light(volume.light, shading, s.base, s.metallic, p.position), 0.0);
+    LightSum sum = no_light();
+    add_local_light(sum, volume.light, shading, s.base, s.metallic, p.position);
+    out_light = vec4(reflected(sum, shading), 0.0);
 }

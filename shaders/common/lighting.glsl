@@ -17,8 +17,8 @@ LitPoint lit_point(ivec2 pixel, vec3 p, bool translucent) {
     return LitPoint(p, direction_to_eye(p), lights_at(pixel, p, translucent));
 }
 
-// Radiance that a point or spot light makes.  Exactly 0 where its range or cone ends.
-vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
+// Adds a point or spot light: exactly nothing where its range or cone ends.
+void add_local_light(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p) {
     LightRecord light = lights[i];
     EXACT vec3 d = light.position - p;
     EXACT float d2 = max(dot3(d, d), 1e-6);
@@ -37,23 +37,11 @@ vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
         strength = strength * cone;
         strength = strength * cone;
     }
-    if (!(n_l > 0.0 && strength > 0.0)) return vec3(0.0);
-    EXACT vec3 radiance = reflectance(s, base, metallic, l, n_l) * (light.intensity * strength);
-    return radiance;
+    if (n_l > 0.0 && strength > 0.0) add_light(sum, s, base, metallic, l, n_l, light.intensity * strength);
 }
 
-// Radiance towards the eye of a surface at a point.
-vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, LitPoint at) {
-    Shading s = make_shading(base, metallic, roughness, normal, at.to_eye);
-    EXACT vec3 sum = vec3(0.0);
-    if (needs(PELLUCID_NEED_AMBIENT)) sum = base * (frame.ambient * occlusion);
-    if (needs(PELLUCID_NEED_DIRECTIONAL)) {
-        for (uint i = 0u; i < frame.light_ends.x; ++i) {
-            float n_l = dot3(normal, lights[i].to_light);
-            if (n_l > 0.0) sum = sum + reflectance(s, base, metallic, lights[i].to_light, n_l) * lights[i].intensity;
-        }
-    }
-    if (!needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) return sum;
+// Adds every point and spot light that is listed for the point.
+void add_local_lights(inout LightSum sum, Shading s, vec3 base, float metallic, LitPoint at) {
     if (needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) {
         uint summaries = frame.light_grid.w;
         for (uint summary = 0u; summary < summaries; ++summary) {
@@ -65,13 +53,28 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
                 while (bits != 0u) {
                     uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
                     bits &= bits - 1u;
-                    sum = sum + local_light(i, s, base, metallic, at.p);
+                    add_local_light(sum, i, s, base, metallic, at.p);
                 }
             }
         }
     } else {
-        for (uint i = at.lists.x; i < at.lists.y; ++i) sum = sum + local_light(i, s, base, metallic, at.p);
+        for (uint i = at.lists.x; i < at.lists.y; ++i) add_local_light(sum, i, s, base, metallic, at.p);
     }
-    return sum;
+}
+
+// Radiance towards the eye of a surface at a point.
+vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, LitPoint at) {
+    Shading s = make_shading(base, metallic, roughness, normal, at.to_eye);
+    LightSum sum = no_light();
+    if (needs(PELLUCID_NEED_DIRECTIONAL)) {
+        for (uint i = 0u; i < frame.light_ends.x; ++i) {
+            float n_l = dot3(normal, lights[i].to_light);
+            if (n_l > 0.0) add_light(sum, s, base, metallic, lights[i].to_light, n_l, lights[i].intensity);
+        }
+    }
+    if (needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) add_local_lights(sum, s, base, metallic, at);
+    EXACT vec3 radiance = reflected(sum, s);
+    if (needs(PELLUCID_NEED_AMBIENT)) radiance = radiance + base * (frame.ambient * occlusion);
+    return radiance;
 }
 #endif
