@@ -106,7 +106,7 @@ struct Measure {
             .stem = "lighting", .baseline = "floor", .error = "radiance, scaled by max(1, reference)"};
 
         std::vector<LitScene> scenes;
-        for (const std::uint32_t count : {1u, 4u, 16u, 64u, 256u})
+        for (const std::uint32_t count : {1u, 2u, 3u, 4u, 16u, 64u, 256u})
             if (!settings.quick || count == 4 || count == 16) scenes.push_back({LightKind::point, count});
         scenes.push_back({LightKind::directional, 16});
         std::vector<GpuScene<B>> uploaded;
