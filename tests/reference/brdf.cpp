@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <limits>
-#include <pellucid/reference/brdf.hpp>
+#include <pellucid/reference/furnace.hpp>
 #include "lobes.hpp"
 #include "support/catch.hpp"
 
@@ -16,9 +16,8 @@ constexpr double pi = std::numbers::pi;
 /// Directional albedo of the specular lobe with F = 1 (a white metal).
 double directional_albedo(BrdfModel model, double mu, double roughness, int steps) {
     const Surface<double> surface{.metallic = 1, .roughness = roughness};
-    return pellucid::test::specular_albedo(mu, roughness, steps, [&](glm::dvec3 v, glm::dvec3 l) {
-        return evaluate_brdf(model, surface, v, l).specular.x;
-    });
+    return integrate_lobe(mu, roughness * roughness, steps,
+                          [&](glm::dvec3 v, glm::dvec3 l) { return evaluate_brdf(model, surface, v, l).specular.x; });
 }
 
 template <class T>

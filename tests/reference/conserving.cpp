@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include <pellucid/reference/brdf.hpp>
-#include "lobes.hpp"
+#include <pellucid/reference/furnace.hpp>
+#include "sampling.hpp"
 #include "support/catch.hpp"
 
 using namespace pellucid::reference;
@@ -16,28 +16,8 @@ const DfgTable& stored_table() {
     return table;
 }
 
-/// The response of `model` summed over a white environment, with the view at cosine `mu`: the lobe of glTF over half
-/// vectors, the rest of the model, which is smooth, over lights.
 glm::dvec3 furnace(BrdfModel model, const Surface<double>& surface, double mu, int steps) {
-    const auto lobe = [&](glm::dvec3 v, glm::dvec3 l) {
-        return model == BrdfModel::conserving ? evaluate_gltf(surface, v, l).specular
-                                              : evaluate_brdf(model, surface, v, l, DfgTable{}).specular;
-    };
-    glm::dvec3 sum(0);
-    for (int c = 0; c < 3; ++c)
-        sum[c] = pellucid::test::specular_albedo(mu, std::sqrt(punctual_alpha(surface.roughness)), steps,
-                                                 [&](glm::dvec3 v, glm::dvec3 l) { return lobe(v, l)[c]; });
-    const glm::dvec3 v(std::sqrt(1 - mu * mu), 0, mu);
-    const GaussRule rule = gauss_rule(32);
-    for (std::size_t i = 0; i < rule.nodes.size(); ++i)
-        for (int j = 0; j < 24; ++j) {
-            const double t = rule.nodes[i], cosine = t * t * t, sine = std::sqrt(1 - cosine * cosine);
-            const double phi = pi * (j + 0.5) / 24;
-            const glm::dvec3 l(sine * std::cos(phi), sine * std::sin(phi), cosine);
-            sum += (evaluate_brdf(model, surface, v, l, stored_table()).total() - lobe(v, l)) *
-                   (rule.weights[i] * 3 * t * t * 2 * pi / 24);
-        }
-    return sum;
+    return white_furnace(model, surface, mu, stored_table(), steps);
 }
 
 /// Albedo of a microsurface with Schlick's F: light walks on it until it leaves (Heitz, Hanika, d'Eon and Dachsbacher
