@@ -68,6 +68,21 @@ TEST_CASE("a white metal in a white furnace cannot be seen", "[cpu]") {
         }
 }
 
+TEST_CASE("a table of 64², made with 128 evaluations a texel in float, does for the furnace", "[cpu]") {
+    const GaussRule rule = gauss_rule(8);
+    const DfgTable table = DfgTable::make(64, DfgStorage::float16, [&](double mu, double alpha) {
+        const Dfg<float> value = integrate_dfg(static_cast<float>(mu), static_cast<float>(alpha), rule);
+        return Dfg<double>{value.loss, value.bias};
+    });
+    for (const double roughness : sixteenths())
+        for (const double mu : {0.05, 0.3, 1.0}) {
+            CAPTURE(roughness, mu);
+            const Surface<double> metal{.metallic = 1, .roughness = roughness}, white{.roughness = roughness};
+            CHECK(white_furnace(BrdfModel::conserving, metal, mu, table).x == Approx(1).margin(0.002));
+            CHECK(white_furnace(BrdfModel::conserving, white, mu, table).x == Approx(1).margin(0.001));
+        }
+}
+
 TEST_CASE("a white dielectric in a white furnace cannot be seen", "[cpu]") {
     for (const double roughness : sixteenths())
         for (const double mu : {0.05, 0.1, 0.3, 0.6, 1.0}) {

@@ -3,7 +3,7 @@
 /// \file
 /// The directional albedo of the specular lobe D V F of glTF: what share of a white environment it reflects towards the
 /// eye, E(μ, α; F0) = scale F0 + bias, with μ = N·V and α = roughness².  In the words of the split sum (Karis 2013):
-/// scale = ∫(1 − x⁵) D V 4... dω, bias = ∫ x⁵ ..., x = 1 − V·H.
+/// scale = ∫ (1 − x⁵) D V (N·L) dL, bias = ∫ x⁵ D V (N·L) dL, x = 1 − V·H.
 ///
 /// The integral is taken over the normals that the eye sees (Heitz 2014), where E = mean of F G₂/G₁: bounded by 1, and
 /// with α scaled away.  Those normals are points of a spherical cap (Dupuy and Benyoub 2023): with w = the stretched

@@ -3,14 +3,16 @@
 /// \file
 /// Integrals of reflection models over the hemisphere: what a surface returns of a white environment.
 #include <pellucid/reference/brdf.hpp>
+#include <type_traits>
 
 namespace pellucid::reference {
 
 /// ∫ response(V, L) dω over the hemisphere around z, V at cosine `mu` in the xz plane, for lobes shaped like GGX with
 /// `alpha` > 0: the midpoint rule over half vectors, `steps`² of them, tan²θ = α² u/(1 − u), graded toward the tail and
-/// the axis of the lobe.  `response` -> double is called with lights below the horizon too, where it must give 0.
+/// the axis of the lobe.  `response` -> double or dvec3 is called with lights below the horizon too, where it must give
+/// 0.
 template <class Response>
-[[nodiscard]] double integrate_lobe(double mu, double alpha, int steps, Response&& response);
+[[nodiscard]] auto integrate_lobe(double mu, double alpha, int steps, Response&& response);
 
 /// ∫ response(V, L) dω -> dvec3, for responses that are smooth in L: 32 by 24 lights, graded toward the horizon.
 template <class Response>
@@ -25,9 +27,9 @@ template <class Response>
 // ---------------------------------------------------------------------------------------------------- bodies
 
 template <class Response>
-double integrate_lobe(double mu, double alpha, int steps, Response&& response) {
+auto integrate_lobe(double mu, double alpha, int steps, Response&& response) {
     const glm::dvec3 v(std::sqrt(1 - mu * mu), 0, mu);
-    double sum = 0;
+    std::invoke_result_t<Response&, glm::dvec3, glm::dvec3> sum(0);
     for (int i = 0; i < steps; ++i) {
         const double t = (i + 0.5) / steps, s = t * t * (3 - 2 * t), u = 1 - s * s;  // s: cosine in the stretched space
         const double weight = 2 * s * 6 * t * (1 - t) / steps;
@@ -40,7 +42,7 @@ double integrate_lobe(double mu, double alpha, int steps, Response&& response) {
             const double v_dot_h = glm::dot(v, h);
             if (v_dot_h <= 0) continue;
             const double density = distribution * cosine / (4 * v_dot_h);
-            sum += weight / steps * response(v, 2.0 * v_dot_h * h - v) / density;
+            sum += response(v, 2.0 * v_dot_h * h - v) * (weight / steps / density);
         }
     }
     return sum;
@@ -67,13 +69,11 @@ glm::dvec3 white_furnace(BrdfModel model, const Surface<double>& surface, double
     const auto sharp = [&](glm::dvec3 v, glm::dvec3 l) {
         return evaluate_brdf(model == BrdfModel::conserving ? BrdfModel::gltf : model, surface, v, l, table);
     };
-    const double alpha = punctual_alpha(surface.roughness);
-    glm::dvec3 sum = integrate_smooth(mu, [&](glm::dvec3 v, glm::dvec3 l) {
-        return evaluate_brdf(model, surface, v, l, table).total() - sharp(v, l).specular;
-    });
-    for (int c = 0; c < 3; ++c)
-        sum[c] += integrate_lobe(mu, alpha, steps, [&](glm::dvec3 v, glm::dvec3 l) { return sharp(v, l).specular[c]; });
-    return sum;
+    const auto lobe = [&](glm::dvec3 v, glm::dvec3 l) { return sharp(v, l).specular; };
+    const auto rest = [&](glm::dvec3 v, glm::dvec3 l) {
+        return evaluate_brdf(model, surface, v, l, table).total() - lobe(v, l);
+    };
+    return integrate_lobe(mu, punctual_alpha(surface.roughness), steps, lobe) + integrate_smooth(mu, rest);
 }
 
 }  // namespace pellucid::reference
