@@ -86,10 +86,11 @@ vec2 e_quadrature(float mu, float alpha) {
             for (int j = 0; j < 8; ++j) {
                 float c = cos(first + (last - first) * NODES[j]);
                 float length2 = base + swing * c;
-                float n_l = clamp((a + b * c) / length2, 0.0, 1.0);
+                float n_l = min((a + b * c) / length2, 1.0);
+                if (!(n_l > 0.0)) continue;
                 float v_h = (sine * alpha * (s * c + wx) + mu * h) * inversesqrt(length2);
                 float root_l = sqrt((n_l - a2 * n_l) * n_l + a2);
-                float share = n_l > 0.0 ? (mu + root_v) * n_l / (n_l * root_v + mu * root_l) : 0.0;
+                float share = (mu + root_v) * n_l / (n_l * root_v + mu * root_l);
                 float fresnel = fifth(1.0 - clamp(v_h, 0.0, 1.0));
                 float weight = weight_h * WEIGHTS[j] * (last - first) * INV_PI * share;
                 scale += weight * (1.0 - fresnel);

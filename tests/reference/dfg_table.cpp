@@ -19,11 +19,11 @@ const std::vector<Place>& places() {
         std::vector<double> roughnesses, roots = {0.0};
         for (int i = 0; i <= 60; ++i) {
             roots.push_back(i / 60.0);
-            roots.push_back(std::pow(10.0, -i / 20.0));
+            roots.push_back(std::pow(10.0, -i / 12.0));
         }
         for (int i = 0; i <= 40; ++i) {
             roughnesses.push_back(std::max(i / 40.0, 1e-3));
-            roughnesses.push_back(std::pow(10.0, -3.0 * i / 40.0));
+            roughnesses.push_back(std::pow(10.0, -4.0 * i / 40.0));
         }
         std::vector<Place> out;
         for (const double r : roughnesses)

@@ -128,13 +128,13 @@ Dfg<T> integrate_dfg(T mu, T alpha, const GaussRule& rule) noexcept {
             for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
                 const T c = std::cos(first + (last - first) * static_cast<T>(rule.nodes[j]));
                 const T length2 = base + swing * c;
-                const T n_l = std::clamp((a + b * c) / length2, T(0), T(1));
+                const T n_l = std::min((a + b * c) / length2, T(1));
+                if (!(n_l > T(0))) continue;
                 const T v_h = (sine * alpha * (s * c + wx) + mu * h) / std::sqrt(length2);
                 const T root_l = std::sqrt((n_l - a2 * n_l) * n_l + a2);
                 const T share = (mu + root_v) * n_l / (n_l * root_v + mu * root_l);  // G₂/G₁
                 const T fresnel = mirror_weight(std::clamp(v_h, T(0), T(1)));
-                const T weight =
-                    n_l > T(0) ? weight_h * static_cast<T>(rule.weights[j]) * (last - first) / pi * share : T(0);
+                const T weight = weight_h * static_cast<T>(rule.weights[j]) * (last - first) / pi * share;
                 scale += weight * (T(1) - fresnel);
                 bias += weight * fresnel;
             }
