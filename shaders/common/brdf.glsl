@@ -2,7 +2,7 @@
 // The reflectance models, in the forms of include/pellucid/reference/brdf.hpp.  All vectors are unit.
 #ifndef PELLUCID_BRDF_GLSL
 #define PELLUCID_BRDF_GLSL
-#include "common/exact.glsl"
+#include "common/dfg.glsl"
 #include "pellucid/gpu/scene.h"
 
 SPEC_CONSTANT(1, BRDF, PELLUCID_BRDF_GLTF);
@@ -11,6 +11,7 @@ const float PI = 3.14159265358979;
 const float INV_PI = 0.318309886183791;
 // Smallest GGX alpha for punctual lights (roughness 0.045): below it a point light's highlight is a delta that no pixel
 // can resolve.
+const float MIN_ROUGHNESS = 0.045;
 const float MIN_ALPHA = 0.002025;
 
 // What of the surface and the eye is the same for every light.
@@ -24,7 +25,33 @@ struct Shading {
     float alpha2;  // GGX alpha squared
     float view_term;  // sqrt(N·V² (1 - a²) + a²), Smith's lambda for V
     float roughness;
+    // Conserving only.
+    float loss;     // (1 - E(N·V)) / (pi (1 - E average))
+    vec3 between;   // F_ms
+    float punctual_roughness;  // the lobe's
 };
+
+// The conserving model's diffuse factor and second lobe: reference/conserving.hpp (Kulla and Conty 2017; the diffuse part
+// Kelemen and Szirmay-Kalos 2001).
+void conserve(inout Shading s, vec3 base, float metallic) {
+    EXACT float roughness = max(s.roughness, MIN_ROUGHNESS);
+    s.punctual_roughness = roughness;
+    vec4 texel = dfg_texel(min(s.n_v, 1.0), roughness);
+    Dfg eye = dfg_of_texel(texel, min(s.n_v, 1.0)), average = Dfg(texel.z, texel.w);
+    EXACT vec3 mean = s.f0 + (vec3(1.0) - s.f0) * (1.0 / 21.0);
+    EXACT vec3 between = mean * mean * (1.0 - average.loss);
+    EXACT vec3 below = vec3(1.0) - mean * average.loss;
+    between = vec3(quotient(between.r, below.r), quotient(between.g, below.g), quotient(between.b, below.b));
+    s.between = between;
+    EXACT float loss = average.loss > 0.0 ? quotient(eye.loss * INV_PI, average.loss) : 0.0;
+    s.loss = loss;
+    EXACT vec3 left = max(vec3(1.0) - dfg_albedo(s.f0, between, eye), vec3(0.0));
+    EXACT vec3 average_left = max(vec3(1.0) - dfg_albedo(s.f0, between, average), vec3(1e-6));
+    EXACT vec3 diffuse = base * ((1.0 - metallic) * INV_PI);
+    diffuse = diffuse * vec3(quotient(left.r, average_left.r), quotient(left.g, average_left.g),
+                             quotient(left.b, average_left.b));
+    s.diffuse = diffuse;
+}
 
 Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, vec3 view) {
     Shading s;
@@ -41,6 +68,10 @@ Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, ve
     k = k * s.n_v;
     s.view_term = root(k + s.alpha2);
     s.roughness = roughness;
+    s.loss = 0.0;
+    s.between = vec3(0.0);
+    s.punctual_roughness = roughness;
+    if (BRDF == PELLUCID_BRDF_CONSERVING) conserve(s, base, metallic);
     return s;
 }
 
@@ -48,16 +79,18 @@ Shading make_shading(vec3 base, float metallic, float roughness, vec3 normal, ve
 // light's colour, nor F0 and the diffuse colour on the light, so three sums of light are all that a loop keeps:
 // sum (1 - F) diffuse + D V F = diffuse (1 - F0) unreflected + F0 normal + grazing.
 struct LightSum {
-    vec3 unreflected;  // sum of (1 - x) E N·L; models that are not taken apart: the whole sum
+    vec3 unreflected;  // sum of (1 - x) E N·L; models that are not taken apart: the whole sum; conserving: of E N·L
     vec3 normal;       // sum of (1 - x) D V E N·L
     vec3 grazing;      // sum of x D V E N·L
+    vec3 lost;         // conserving: sum of E N·L times what the lobe loses towards the light
+    vec3 biased;       // conserving: the same of the lobe of F0 = 0
 };
-LightSum no_light() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0)); }
+LightSum no_light() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)); }
 
-// glTF's metallic-roughness model under a light of `illuminance` E at normal incidence: Trowbridge–Reitz D in the form
+// glTF's metallic-roughness model, or the conserving one, under a light of `illuminance` E at normal incidence: Trowbridge–Reitz D in the form
 // q = |N×H|² + (N·H a)², which does not cancel near the peak (Lagrange's identity); height-correlated Smith V (Heitz
 // 2014); Schlick F; diffuse (1 - F) rho/pi.  h = V + L is not normalised: D V is one quotient with |h|⁴ above.
-void add_gltf(inout LightSum sum, Shading s, vec3 l, float n_l, vec3 illuminance) {
+void add_ggx(inout LightSum sum, Shading s, vec3 l, float n_l, vec3 illuminance) {
     EXACT vec3 h = s.view + l;
     EXACT float hh = dot3(h, h);
     if (hh < 1e-12) return;
@@ -80,8 +113,17 @@ void add_gltf(inout LightSum sum, Shading s, vec3 l, float n_l, vec3 illuminance
     EXACT float x5 = x2 * x2;
     x5 = x5 * x;
     EXACT vec3 grazing = illuminance * (n_l * x5);
-    EXACT vec3 normal = illuminance * n_l - grazing;
-    sum.unreflected = sum.unreflected + normal;
+    EXACT vec3 all = illuminance * n_l;
+    EXACT vec3 normal = all - grazing;
+    if (BRDF == PELLUCID_BRDF_CONSERVING) {
+        float mu = min(n_l, 1.0);
+        Dfg light = dfg_of_texel(dfg_texel(mu, s.punctual_roughness), mu);
+        sum.unreflected = sum.unreflected + all;
+        sum.lost = sum.lost + all * light.loss;
+        sum.biased = sum.biased + all * light.bias;
+    } else {
+        sum.unreflected = sum.unreflected + normal;
+    }
     sum.normal = sum.normal + normal * lobe;
     sum.grazing = sum.grazing + grazing * lobe;
 }
@@ -131,8 +173,8 @@ vec3 reflect_blinn_phong(Shading s, vec3 l, float n_l) {
 
 // Adds a light to what was summed so far.  `l`: towards it; N·L > 0.
 void add_light(inout LightSum sum, Shading s, vec3 base, float metallic, vec3 l, float n_l, vec3 illuminance) {
-    if (BRDF == PELLUCID_BRDF_GLTF) {
-        add_gltf(sum, s, l, n_l, illuminance);
+    if (BRDF == PELLUCID_BRDF_GLTF || BRDF == PELLUCID_BRDF_CONSERVING) {
+        add_ggx(sum, s, l, n_l, illuminance);
     } else {
         EXACT vec3 r = BRDF == PELLUCID_BRDF_SEED ? reflect_seed(s, base, metallic, l, n_l)
                                                   : reflect_blinn_phong(s, l, n_l);
@@ -143,9 +185,16 @@ void add_light(inout LightSum sum, Shading s, vec3 base, float metallic, vec3 l,
 
 // The radiance that the surface makes of it.
 vec3 reflected(LightSum sum, Shading s) {
-    if (BRDF != PELLUCID_BRDF_GLTF) return sum.unreflected;
-    EXACT vec3 r = (vec3(1.0) - s.f0) * s.diffuse;
+    if (BRDF == PELLUCID_BRDF_SEED || BRDF == PELLUCID_BRDF_BLINN_PHONG) return sum.unreflected;
+    EXACT vec3 other = vec3(1.0) - s.f0;
+    EXACT vec3 r = other * s.diffuse;
     r = r * sum.unreflected;
+    if (BRDF == PELLUCID_BRDF_CONSERVING) {
+        // 1 - E_s(N·L) = (1 - F0) + (F0 - F_ms) loss - (1 - F0) bias, summed.
+        EXACT vec3 rest = (s.f0 - s.between) * sum.lost - other * sum.biased;
+        r = r + s.diffuse * rest;
+        r = r + s.between * (sum.lost * s.loss);
+    }
     r = r + s.f0 * sum.normal;
     r = r + sum.grazing;
     return r;

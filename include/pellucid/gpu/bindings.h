@@ -22,4 +22,5 @@
 #define PELLUCID_BIND_LIGHTS 28
 #define PELLUCID_BIND_LIGHT_LISTS 29
 #define PELLUCID_BIND_TEXTURES 32  // 32 … 39: texture arrays
+#define PELLUCID_BIND_DFG 44       // directional albedo (gpu/dfg.h)
 #endif

@@ -39,6 +39,7 @@
 #define PELLUCID_BRDF_GLTF 0u
 #define PELLUCID_BRDF_SEED 1u
 #define PELLUCID_BRDF_BLINN_PHONG 2u
+#define PELLUCID_BRDF_CONSERVING 3u
 
 #define PELLUCID_TEXTURE_ARRAYS 8  // arrays that the whole scene's textures are gathered in
 #define PELLUCID_NO_PRIMITIVE 0xFFFFFFFFu

@@ -38,6 +38,7 @@ struct SceneBinding {
                              {PELLUCID_BIND_LIGHT_LISTS, storage_buffer}}};
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i)
         layout.bindings.push_back({PELLUCID_BIND_TEXTURES + i, sampled_texture});
+    layout.bindings.push_back({PELLUCID_BIND_DFG, sampled_texture});
     return layout;
 }
 

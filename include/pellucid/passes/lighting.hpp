@@ -14,13 +14,14 @@ enum class ShadingStage : std::uint8_t { compute, fragment };
 enum class Brdf : std::uint8_t {
     gltf,        ///< GGX (Lagrange form), height-correlated Smith, Schlick, diffuse (1 - F)(1 - metallic) base / pi
     seed,        ///< the terms of the document the project grew from, kept to be measured
-    blinn_phong  ///< likewise
+    blinn_phong,  ///< likewise
+    conserving    ///< gltf's lobe, what it scatters more than once, and a diffuse part with exactly the rest
 };
 [[nodiscard]] constexpr const char* name(ShadingStage s) noexcept {
     return s == ShadingStage::compute ? "compute" : "fragment";
 }
 [[nodiscard]] constexpr const char* name(Brdf b) noexcept {
-    constexpr const char* names[] = {"gltf", "seed", "blinn-phong"};
+    constexpr const char* names[] = {"gltf", "seed", "blinn-phong", "conserving"};
     return names[static_cast<std::size_t>(b)];
 }
 
