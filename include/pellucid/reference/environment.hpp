@@ -11,6 +11,7 @@
 /// A radiance function is any `glm::dvec3 f(glm::dvec3 unit_direction)`.
 #include <algorithm>
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -32,13 +33,19 @@ namespace pellucid::reference {
 [[nodiscard]] inline glm::dvec3 environment_radiance(const ImageF& image, glm::dvec3 direction) noexcept;
 
 /// Two unit vectors that make a right-handed frame with `axis` (unit): x × y = axis (Duff et al. 2017).
-struct Frame {
-    glm::dvec3 x, y, axis;
-    explicit Frame(glm::dvec3 unit) noexcept;
-    [[nodiscard]] glm::dvec3 to_world(glm::dvec3 local) const noexcept {
+template <std::floating_point T>
+struct BasicFrame {
+    glm::vec<3, T> x, y, axis;
+    explicit BasicFrame(glm::vec<3, T> unit) noexcept : axis(unit) {
+        const T sign = std::copysign(T(1), unit.z), a = T(-1) / (sign + unit.z), b = unit.x * unit.y * a;
+        x = {T(1) + sign * unit.x * unit.x * a, sign * b, -sign * unit.x};
+        y = {b, sign + unit.y * unit.y * a, -unit.y};
+    }
+    [[nodiscard]] glm::vec<3, T> to_world(glm::vec<3, T> local) const noexcept {
         return x * local.x + y * local.y + axis * local.z;
     }
 };
+using Frame = BasicFrame<double>;
 
 /// How much of a lobe around R lies at the cosine μ = R·L, by solid angle and not normalised, under the usual
 /// assumption N = V = R (Karis 2013): half vectors are distributed as D(H)(N·H), which gives L the density D(H)/4, and
@@ -106,12 +113,6 @@ glm::dvec3 environment_radiance(const ImageF& image, glm::dvec3 direction) noexc
     const glm::dvec3 upper = texel(left, top) * (1 - fx) + texel(left + 1, top) * fx;
     const glm::dvec3 lower = texel(left, top + 1) * (1 - fx) + texel(left + 1, top + 1) * fx;
     return upper * (1 - fy) + lower * fy;
-}
-
-inline Frame::Frame(glm::dvec3 unit) noexcept : axis(unit) {
-    const double sign = std::copysign(1.0, unit.z), a = -1 / (sign + unit.z), b = unit.x * unit.y * a;
-    x = {1 + sign * unit.x * unit.x * a, sign * b, -sign * unit.x};
-    y = {b, sign + unit.y * unit.y * a, -unit.y};
 }
 
 double prefilter_weight(double one_minus_mu, double alpha) noexcept {

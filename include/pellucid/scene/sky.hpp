@@ -39,7 +39,7 @@ inline constexpr std::uint32_t sky_rows = 16;     ///< over perceptual roughness
 /// The powers were chosen by measurement: near the horizon and r = 0 the light is a homogeneous function of |y|^0.4 and
 /// r^0.8, which no grid of cells can follow at its corner, only smaller ones; at r = 1 what is wanted are even steps.
 /// The largest errors of a lookup (every colour, y and r): 0.42 % so; 1.0 % with p = 0.4 and r^0.8, which make each
-/// edge of the table exact; 0.50 % at best with a power of |y| that does not depend on r.
+/// edge of the table exact; 0.56 % at best with a power of |y| that does not depend on r.
 template <std::floating_point T>
 [[nodiscard]] T sky_row(T roughness) noexcept {
     return T(sky_rows - 1) * std::pow(std::clamp(roughness, T(0), T(1)), T(0.55));
