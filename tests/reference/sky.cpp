@@ -83,10 +83,8 @@ TEST_CASE("what mixing towards a constant is worth", "[cpu]") {
     std::printf("seed, diffuse: %.3f to %.3f of the exact light\n", lowest, highest);
     CHECK(lowest == Approx(0.48).margin(0.005));
     CHECK(highest == Approx(3.0).margin(0.005));
-    // As glossy light: means and maxima over directions spread evenly in height.
-    const struct {
-        double roughness, mean, max;
-    } known[] = {{0.25, 0.04, 0.27}, {0.5, 0.10, 0.68}, {0.75, 0.17, 1.21}, {1.0, 0.32, 2.00}};
+    // As glossy light, over directions spread evenly in height.
+    const struct { double roughness, max; } known[] = {{0.25, 0.27}, {0.5, 0.68}, {0.75, 1.21}, {1.0, 2.00}};
     for (const auto& one : known) {
         double sum = 0, max = 0;
         for (int i = -100; i <= 100; ++i) {
@@ -99,6 +97,5 @@ TEST_CASE("what mixing towards a constant is worth", "[cpu]") {
         std::printf("seed, roughness %.2f: mean error %.1f %%, largest %.1f %%\n", one.roughness, sum / 201 * 100,
                     max * 100);
         CHECK(max == Approx(one.max).margin(0.01));
-        CHECK(sum / 201 == Approx(one.mean).margin(0.01));
     }
 }

@@ -69,6 +69,12 @@ template <class Radiance>
 [[nodiscard]] inline glm::dvec3 prefiltered_radiance(const CubeChain& cube, std::size_t level, glm::dvec3 axis,
                                                      double alpha) noexcept;
 
+/// The smallest level whose sum is exact enough: at least max(64, 16/√α) texels a side, or level 0.  On a sunlit
+/// picture (a sun of 1e5 times the mean) sums over it are within 0.1 to 0.2 % RMS of the integral from roughness 0.15
+/// on, with `tent`; a lookup of 1024 filtered samples (importance_sampling.hpp) is 2 to 3 % off, with `box` levels 4 to
+/// 10 %.
+[[nodiscard]] inline std::size_t prefilter_level(const CubeChain& cube, double alpha) noexcept;
+
 /// Seamless trilinear lookup.  `lod` is clamped to the levels there are.
 [[nodiscard]] inline glm::dvec3 sample_cube(const CubeChain& cube, glm::dvec3 direction, double lod = 0) noexcept;
 
@@ -181,6 +187,13 @@ glm::dvec3 prefiltered_radiance(const CubeChain& cube, std::size_t level, glm::d
                 total += weight;
             }
     return sum / total;
+}
+
+std::size_t prefilter_level(const CubeChain& cube, double alpha) noexcept {
+    const double side = std::max(64.0, 16 / std::sqrt(alpha));
+    std::size_t level = 0;
+    while (level + 1 < cube.levels.size() && (cube.size >> (level + 1)) >= side) ++level;
+    return level;
 }
 
 glm::dvec3 sample_cube(const CubeChain& cube, glm::dvec3 direction, double lod) noexcept {

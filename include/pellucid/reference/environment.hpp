@@ -125,7 +125,7 @@ double prefilter_weight(double one_minus_mu, double alpha) noexcept {
 double prefilter_total(double alpha) noexcept {
     const double a = alpha * alpha, c = 1 - a, end = 1 / (1 + a);
     // (1 − (1+a)u)/(1 − cu) = (1+a)/c − (2a/c)/(1 − cu), which cancels where a is near 1: there term by term in c.
-    if (c > 0.5) return 1 / c + 2 * a / (c * c) * std::log1p(-c * end);
+    if (c > 0.5) return 1 / c + 2 * a / (c * c) * std::log(2 * a * end);
     double sum = 0, power = end;
     for (int k = 0; k < 40; ++k, power *= c * end) sum += power / ((k + 1) * (k + 2));
     return sum;
@@ -138,10 +138,10 @@ glm::dvec3 diffuse_radiance(const Radiance& radiance, glm::dvec3 normal, std::si
     glm::dvec3 sum(0.0);
     for (std::size_t i = 0; i < points; ++i)
         for (std::size_t j = 0; j < 2 * points; ++j) {
-            // The measure n·l dl/π is uniform in sin²θ and in φ.
-            const double sine = std::sqrt(rule.at[i]), cosine = std::sqrt(1 - rule.at[i]);
+            const double cosine = rule.at[i], sine = std::sqrt((1 - cosine) * (1 + cosine));
             const double phi = std::numbers::pi * (static_cast<double>(j) + 0.5) / static_cast<double>(points);
-            sum += radiance(frame.to_world({sine * std::cos(phi), sine * std::sin(phi), cosine})) * rule.weight[i];
+            sum += radiance(frame.to_world({sine * std::cos(phi), sine * std::sin(phi), cosine})) *
+                   (2 * cosine * rule.weight[i]);
         }
     return sum / (2.0 * static_cast<double>(points));
 }
