@@ -19,7 +19,7 @@ bool near(glm::dvec3 a, glm::dvec3 b, double tolerance = 1e-14) {
 }  // namespace
 
 TEST_CASE("faces are those of the specifications' table", "[cpu]") {
-    // Major axis, the way u grows, the way v grows: rows of "Cube Map Face Selection" (Vulkan), table 8.19 (OpenGL).
+    // Major axis, the way u grows, the way v grows: rows of the table in both specifications.
     const glm::dvec3 x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
     const struct {
         glm::dvec3 major, s, t;

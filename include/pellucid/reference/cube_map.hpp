@@ -3,8 +3,8 @@
 /// \file
 /// Cube maps as Vulkan and OpenGL define them, in double: faces, lookups across edges, mip chains.
 ///
-/// Vulkan 1.3, "Cube Map Face Selection", and OpenGL 4.5 core, table 8.19, agree; with r the direction and m the
-/// magnitude of its largest component, u = (s/m + 1)/2, v = (t/m + 1)/2 from the face's first texel, row 0 first:
+/// Vulkan 1.3, "Cube Map Face Selection", and OpenGL 4.5, "Cube Map Texture Selection", agree; with r the direction and
+/// m the magnitude of its largest component, u = (s/m + 1)/2, v = (t/m + 1)/2 from the face's first texel, row 0 first:
 ///   face   0 +x     1 −x     2 +y     3 −y     4 +z     5 −z
 ///   s      −r.z      r.z      r.x      r.x      r.x     −r.x
 ///   t      −r.y     −r.y      r.z     −r.z     −r.y     −r.y
@@ -71,7 +71,7 @@ template <class Radiance>
 
 /// The smallest level whose sum is exact enough: at least max(64, 16/√α) texels a side, or level 0.  On a sunlit
 /// picture (a sun of 1e5 times the mean) sums over it are within 0.1 to 0.2 % RMS of the integral from roughness 0.15
-/// on, with `tent`; a lookup of 1024 filtered samples (importance_sampling.hpp) is 2 to 3 % off, with `box` levels 4 to
+/// on, with `tent`; 1024 filtered samples (importance_sampling.hpp) are 2 to 4 % off, with `box` levels 4 to
 /// 10 %.
 [[nodiscard]] inline std::size_t prefilter_level(const CubeChain& cube, double alpha) noexcept;
 

@@ -69,9 +69,8 @@ template <class Radiance>
 [[nodiscard]] glm::dvec3 prefiltered_radiance(const Radiance& radiance, glm::dvec3 axis, double alpha,
                                               std::size_t points = 64);
 
-/// Σ of f(direction, solid angle) · radiance over a picture: `points`² Gauss points in each square between four texels'
-/// middles, where bilinear radiance is a polynomial; also right where one texel outshines all others.
-/// f(direction) gives a weight; with f = 1 the result is ∫ L dl.
+/// ∫ weight(l) L(l) dl over a picture, weight(direction) a number: `points`² Gauss points in each square between four
+/// texels' middles, where bilinear radiance is a polynomial; so also right where one texel outshines all others.
 template <class Weight>
 [[nodiscard]] glm::dvec3 integrate_image(const ImageF& image, const Weight& weight, std::size_t points = 2);
 

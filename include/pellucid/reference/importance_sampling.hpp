@@ -55,7 +55,7 @@ template <std::floating_point T>
 
 /// The level whose texels are as large as a sample's share of the sphere (Křivánek and Colbert 2008, equation 12;
 /// texels are taken to be all of one size): max(1/2 log2(texels/(4π samples density)) + bias, 0).  They recommend a
-/// bias of 1. On a sunlit picture 1/2 was best with 256 and 1024 samples and 1 with 4096; on a smooth sky 0.
+/// bias of 1.  Measured on a sunlit picture: 0 is best with 256 samples, 1/2 with 1024, 1 with 4096; on a smooth sky 0.
 template <std::floating_point T>
 [[nodiscard]] T filtered_lod(T density, T samples, T texels, T bias) noexcept {
     return std::max(T(0.5) * std::log2(texels / (T(4) * std::numbers::pi_v<T> * samples * density)) + bias, T(0));
