@@ -92,6 +92,20 @@ TEST_CASE("sizes that no device has are refused with the limit", "[cpu]") {
     }
 }
 
+TEST_CASE("a scene with a light that cannot be is refused before anything is made", "[cpu]") {
+    null::Device device;
+    Scene scene = full_scene();
+    scene.lights.push_back({.kind = LightKind::spot, .inner_cone = 0.5, .outer_cone = 0.25, .name = "swapped"});
+    const auto made = Renderer<Null>::create(device, scene, test::settings_for(16));
+    REQUIRE_FALSE(made);
+    CHECK(made.error().code == Errc::invalid_argument);
+    CHECK(made.error().message ==
+          "light " + std::to_string(scene.lights.size() - 1) +
+              " (\"swapped\"): its inner cone is 0.5, but must be at least 0 and below its outer "
+              "cone, 0.25 rad");
+    CHECK(device.live_objects() == 0);
+}
+
 TEST_CASE("a G-buffer is read only where it was kept, and only as many targets as there are", "[cpu]") {
     null::Device device;
     RenderSettings settings = test::settings_for(16);

@@ -205,6 +205,7 @@ TEST_CASE("cameras and lights are placed rigidly", "[cpu][gltf]") {
     CHECK((flat.projection == Projection::orthographic && flat.half_width == 2 && flat.half_height == 3 &&
            flat.far == 4));
     REQUIRE(scene.lights.size() == 3);
+    CHECK(check_lights(scene.lights));
     const Light& spot = scene.lights[0];
     CHECK((spot.kind == LightKind::spot && spot.name == "lamp" && spot.intensity == 7 && spot.range == 9));
     CHECK((spot.inner_cone == 0.1 && spot.outer_cone == 0.2));

@@ -127,6 +127,52 @@ TEST_CASE("references and types are checked before use", "[cpu][gltf]") {
     for (const Case& one : wrong) check(one);
 }
 
+TEST_CASE("lights out of range are refused with the light's place and the value", "[cpu][gltf]") {
+    const auto document = [](const std::string& light) {
+        return with(triangle_json, R"("scene":0)",
+                    R"("scene":0,"extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":
+                    {"lights":[{"type":"point"},)" +
+                        light + "]}}");
+    };
+    const std::string spot = R"({"type":"spot","spot":{"innerConeAngle":)";
+    struct {
+        std::string light;
+        const char* says;  ///< the start of the refusal, after the light's place
+    } const wrong[] = {
+        {R"({"type":"point","intensity":-1})", "/intensity: is -1, outside the range [0.0, inf)"},
+        {R"({"type":"point","intensity":1e39})", "/intensity: is 1e+39, which no 32-bit float holds"},
+        {R"({"type":"point","intensity":null})", "/intensity: must be a number, is null"},
+        {R"({"type":"point","intensity":"NaN"})", "/intensity: must be a number, is \"NaN\""},
+        {R"({"type":"point","color":[1,-0.5,1]})", "/color/1: is -0.5, outside the range [0.0, 1.0]"},
+        {R"({"type":"point","color":[1,1]})", "/color: has 2 values, must have 3"},
+        {R"({"type":"point","color":[1,null,1]})", "/color/1: must be a number, is null"},
+        {R"({"type":"point","range":-2})", "/range: is -2, outside the range"},
+        {R"({"type":"point","range":0})", "/range: is 0, outside the range"},
+        {spot + R"(0.5,"outerConeAngle":0.25}})", "/spot: innerConeAngle 0.5"},
+        {spot + R"(0.25,"outerConeAngle":0.25}})", "/spot: innerConeAngle 0.25"},
+        {spot + "0.8}}", "/spot: innerConeAngle 0.8"},  // the outer one is pi/4 where the file says nothing
+        {spot + R"(-0.1,"outerConeAngle":0.25}})", "/spot/innerConeAngle: is -0.1, outside the range"},
+        {spot + R"(0,"outerConeAngle":1.58}})", "/spot/outerConeAngle: is 1.58, outside the range"},
+        {spot + R"(0,"outerConeAngle":90}})", "/spot/outerConeAngle: is 90, outside the range"},
+        {spot + R"(0,"outerConeAngle":0}})", "/spot/outerConeAngle: is 0, outside the range"},
+        {R"({"type":"spot"})", ": is a spot, lacks the member \"spot\""},
+        {R"({"type":"area"})", "/type: is \"area\", none of directional, point, spot"},
+        {R"({"intensity":1})", ": lacks the required member \"type\""}};
+    for (const auto& one : wrong) {
+        INFO(one.light);
+        const std::string says = refusal(document(one.light)), place = "/extensions/KHR_lights_punctual/lights/1";
+        CHECK(says.substr(0, place.size() + std::string(one.says).size()) == place + one.says);
+        CHECK(says.find('\n') == std::string::npos);
+    }
+    CHECK(refusal(document(R"({"type":"point","intensity":NaN})")).find("is not valid JSON") == 0);
+    // A right angle that was rounded to float on its way is one.
+    CHECK(refusal(document(spot + R"(0,"outerConeAngle":1.5707963705062866}})")) == "");
+    const auto wide = load_parts(with(document(spot + R"(0,"outerConeAngle":1.5707963705062866}})"), R"({"mesh":0})",
+                                      R"({"mesh":0,"extensions":{"KHR_lights_punctual":{"light":1}}})"));
+    REQUIRE(wide);
+    CHECK(check_lights(wide->lights));
+}
+
 TEST_CASE("data that would reach the GPU is checked", "[cpu][gltf]") {
     std::string bin = triangle_bin();
     const auto put = [&](std::size_t at, auto value) { std::memcpy(bin.data() + at, &value, sizeof value); };

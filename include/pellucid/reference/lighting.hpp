@@ -8,14 +8,10 @@
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <numbers>
-#include <pellucid/core/result.hpp>
 #include <pellucid/reference/brdf.hpp>
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
 #include <span>
-#include <string>
 
 namespace pellucid::reference {
 
@@ -44,9 +40,6 @@ struct SpotCone {
 /// The cone's factor in [0,1].  Both vectors are unit; `direction` is the way the light travels.
 /// 1 − cos θ = |direction + to_light|²/2, θ between the spot's axis and the ray from the light.
 [[nodiscard]] inline double spot_factor(const SpotCone& cone, glm::dvec3 direction, glm::dvec3 to_light) noexcept;
-
-/// Checks the ranges that scene/light.hpp documents.  `index` names the light in the sentence.
-[[nodiscard]] inline Result<void> validate(const Light& light, std::size_t index);
 
 /// What arrives from one light.
 struct LightSample {
@@ -89,31 +82,6 @@ double spot_factor(const SpotCone& cone, glm::dvec3 direction, glm::dvec3 to_lig
     const glm::dvec3 off_axis = direction + to_light;
     const double factor = std::clamp((cone.outer - 0.5 * glm::dot(off_axis, off_axis)) * cone.scale, 0.0, 1.0);
     return factor * factor;
-}
-
-Result<void> validate(const Light& light, std::size_t index) {
-    const auto fail = [&](const char* what, double value, const char* limit) -> Result<void> {
-        return Error{Errc::invalid_argument, "light " + std::to_string(index) + " (\"" + light.name + "\"): " + what +
-                                                 " is " + std::to_string(value) + ", but must be " + limit};
-    };
-    for (int i = 0; i < 3; ++i) {
-        if (!(light.color[i] >= 0) || !std::isfinite(light.color[i]))
-            return fail("a component of its color", light.color[i], "finite and at least 0");
-        if (!std::isfinite(light.position[i])) return fail("a component of its position", light.position[i], "finite");
-    }
-    if (!(light.intensity >= 0) || !std::isfinite(light.intensity))
-        return fail("its intensity", light.intensity, "finite and at least 0");
-    if (!(light.range >= 0)) return fail("its range", light.range, "at least 0 m (0: unlimited)");
-    const double length = glm::length(light.direction);
-    if (light.kind != LightKind::point && !(std::abs(length - 1.0) <= 1e-6))
-        return fail("the length of its direction", length, "1");
-    if (light.kind != LightKind::spot) return {};
-    if (!(light.outer_cone > 0 && light.outer_cone <= 0.5 * std::numbers::pi))
-        return fail("its outer cone", light.outer_cone, "in (0, pi/2] rad");
-    if (!(light.inner_cone >= 0 && light.inner_cone < light.outer_cone))
-        return fail("its inner cone", light.inner_cone,
-                    ("at least 0 and below its outer cone, " + std::to_string(light.outer_cone) + " rad").c_str());
-    return {};
 }
 
 LightSample sample_light(const Light& light, glm::dvec3 position) noexcept {

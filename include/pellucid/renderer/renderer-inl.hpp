@@ -16,6 +16,7 @@ Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& dev
                                                  std::to_string(settings.size.height) + "; each side must be 1 to " +
                                                  std::to_string(limit) + " on " + device.info().name};
     PELLUCID_CHECK(check_device(settings.transparency, device.info()));
+    PELLUCID_CHECK(check_lights(scene.lights));
     std::unique_ptr<Renderer> renderer(new Renderer(device));
     renderer->settings_ = settings;
     PELLUCID_CHECK(renderer->build(scene));

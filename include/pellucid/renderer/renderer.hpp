@@ -41,8 +41,9 @@ public:
     static constexpr std::size_t depth_index = 15;
 
     /// Builds what the scene needs and nothing else.  `scene` is copied where it must be kept.
-    /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit; `unsupported` where the device cannot
-    /// run the method of transparency; those of creation.
+    /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit and for a light out of the ranges that
+    /// scene/light.hpp documents; `unsupported` where the device cannot run the method of transparency; those of
+    /// creation.
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
 

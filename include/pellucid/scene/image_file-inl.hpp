@@ -5,6 +5,7 @@
 #include <pellucid/scene/detail/jpeg.hpp>
 #include <pellucid/scene/detail/netpbm.hpp>
 #include <pellucid/scene/detail/png.hpp>
+#include <pellucid/scene/detail/radiance_hdr.hpp>
 #include <pellucid/scene/image_file.hpp>
 #include <algorithm>
 #include <bit>
@@ -34,6 +35,39 @@ PELLUCID_INLINE Result<Image8> decode_image(std::span<const std::byte> bytes, co
 PELLUCID_INLINE Result<Image8> read_image(const std::string& path, const ImageLimits& limits) {
     PELLUCID_TRY(const std::vector<std::byte> bytes, detail::read_file(path, limits.max_bytes));
     return decode_image(bytes, path, limits);
+}
+
+PELLUCID_INLINE Result<ImageF> decode_hdr(std::span<const std::byte> bytes, const std::string& name,
+                                          const ImageLimits& limits) {
+    try {
+        return detail::HdrReader(bytes, name, limits).read();
+    } catch (const std::bad_alloc&) {
+        return Error{Errc::out_of_memory, name + ": there is not enough memory to decode the picture"};
+    }
+}
+
+PELLUCID_INLINE Result<ImageF> read_hdr(const std::string& path, const ImageLimits& limits) {
+    // Runs make a file at most 1/128 longer than its texels, the header comes to that.
+    PELLUCID_TRY(const std::vector<std::byte> bytes,
+                 detail::read_file(path, limits.max_bytes + limits.max_bytes / 64 + 65536));
+    return decode_hdr(bytes, path, limits);
+}
+
+PELLUCID_INLINE Result<void> check_environment(const ImageF& image, const std::string& name) {
+    const auto fail = [&](const std::string& what) { return Error{Errc::invalid_argument, name + ": " + what}; };
+    const std::string size = std::to_string(image.width) + " x " + std::to_string(image.height) + " texels with " +
+                             std::to_string(image.channels) + " channels";
+    if (image.height == 0 || image.width != std::uint64_t{image.height} * 2 || image.channels < 3)
+        return fail("has " + size + ", but an environment must be equirectangular, with three channels and twice as " +
+                    "wide as high, at least 2 x 1: make it one of that shape");
+    for (std::uint32_t y = 0; y < image.height; ++y)
+        for (std::uint32_t x = 0; x < image.width; ++x)
+            for (std::uint32_t c = 0; c < 3; ++c)
+                if (const float value = image.texel(x, y)[c]; !(value >= 0) || !std::isfinite(value))
+                    return fail("channel " + std::to_string(c) + " of texel (" + std::to_string(x) + ", " +
+                                std::to_string(y) + ") is " + std::to_string(value) +
+                                ", but an environment's radiance must be finite and at least 0: mend the picture");
+    return {};
 }
 
 PELLUCID_INLINE Result<void> write_png(const std::string& path, const Image8& image) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// Pictures in files: PNG and JPEG in; PNG, PFM and EXR out; PFM and PGM in, for references.
+/// Pictures in files: PNG and JPEG in; PNG, PFM and EXR out; PFM and PGM in, for references;
+/// Radiance .hdr in, for environments.
 /// Decoders are given bytes that nobody has checked: sizes are limited before anything is allocated, and damage of any
 /// kind is an `Error`.  Writers replace the named file in one step, or leave it as it was and return Errc::io.
 #include <pellucid/core/config.hpp>
@@ -28,6 +29,22 @@ Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string&
 
 /// Reads and decodes a PNG or JPEG file.
 Result<Image8> read_image(const std::string& path, const ImageLimits& limits = {});
+
+/// Decodes a Radiance picture (.hdr, .pic) to `[h, w, 3]` linear radiance, finite and at least 0.  Scan lines are flat
+/// or run-length encoded.  EXPOSURE and COLORCORR lines are divided out, so that values are those the picture was made
+/// of, and a mantissa stands for the middle of its step, (m + 1/2)/256, as Ward defines both ("Radiance File Formats";
+/// many readers do neither).  PRIMARIES, VIEW, PIXASPECT, GAMMA and remarks are passed over.  Refused: XYZE,
+/// orientations other than "-Y h +X w", the runs of before 1991, bytes behind the last line, and a header that promises
+/// more texels than the bytes could hold.  `name` is what the picture is called in an error.  Errors: Errc::parse.
+Result<ImageF> decode_hdr(std::span<const std::byte> bytes, const std::string& name, const ImageLimits& limits = {});
+
+/// Reads and decodes a Radiance picture.
+Result<ImageF> read_hdr(const std::string& path, const ImageLimits& limits = {});
+
+/// Whether `image` can be an environment in equirectangular projection: twice as wide as high, at least 2 x 1, three
+/// channels or more, the first three of each texel finite and at least 0.  `name` is what it is called in the error.
+/// Errors: Errc::invalid_argument.
+Result<void> check_environment(const ImageF& image, const std::string& name);
 
 /// Writes `[h, w, 3]` or `[h, w, 4]`, straight alpha, values already sRGB-encoded: the file says so (sRGB chunk).
 Result<void> write_png(const std::string& path, const Image8& image);

@@ -117,8 +117,7 @@ struct Prepared {
             if (!std::isfinite(value))
                 return Error{Errc::invalid_argument, std::string("a component of the ") + what + " is " +
                                                          std::to_string(value) + ", but must be finite"};
-    for (std::size_t i = 0; i < options.lights.size(); ++i) PELLUCID_CHECK(validate(options.lights[i], i));
-    return {};
+    return check_lights(options.lights);
 }
 
 /// The instances that are drawn, opaque and masked ones first.  Materials are bound by `bind_materials`.

@@ -9,7 +9,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace pellucid::detail {
 
@@ -220,7 +222,7 @@ private:
         } else if (source.type == "spot") {
             light.kind = LightKind::spot;
             light.inner_cone = source.spot.innerConeAngle;
-            light.outer_cone = source.spot.outerConeAngle;
+            light.outer_cone = std::min(source.spot.outerConeAngle, 0.5 * std::numbers::pi);
             if (!(light.inner_cone < light.outer_cone))
                 gltf_fail(place + "/spot: innerConeAngle " + std::to_string(light.inner_cone) +
                           " must be below outerConeAngle " + std::to_string(light.outer_cone));

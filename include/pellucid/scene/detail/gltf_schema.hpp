@@ -88,6 +88,7 @@ struct GltfMember {
 
 // clang-format off
 inline constexpr double gltf_huge = 9007199254740991.0;  // 2^53 - 1: integers up to here survive JSON
+inline constexpr double gltf_quarter_turn = 1.5707963705062866;  // [rad] pi/2 rounded up to a float, as files have it
 inline constexpr GltfMember gltf_members[] = {
     {GltfObject::root, "asset", GltfKind::object, {.required = true, .child = GltfObject::asset}},
     {GltfObject::root, "extensionsUsed", GltfKind::texts},
@@ -213,8 +214,8 @@ inline constexpr GltfMember gltf_members[] = {
     {GltfObject::light, "intensity", GltfKind::number, {.low = 0}},
     {GltfObject::light, "range", GltfKind::number, {.low = 1e-30}},
     {GltfObject::light, "spot", GltfKind::object, {.child = GltfObject::spot}},
-    {GltfObject::spot, "innerConeAngle", GltfKind::number, {.low = 0, .high = 1.5707963267948968}},
-    {GltfObject::spot, "outerConeAngle", GltfKind::number, {.low = 1e-9, .high = 1.5707963267948968}},
+    {GltfObject::spot, "innerConeAngle", GltfKind::number, {.low = 0, .high = gltf_quarter_turn}},
+    {GltfObject::spot, "outerConeAngle", GltfKind::number, {.low = 1e-9, .high = gltf_quarter_turn}},
     {GltfObject::animation, "channels", GltfKind::objects, {.required = true, .child = GltfObject::channel}},
     {GltfObject::animation, "samplers", GltfKind::objects, {.required = true, .child = GltfObject::animation_sampler}},
     {GltfObject::channel, "sampler", GltfKind::integer, {.required = true, .low = 0, .high = gltf_huge}},
