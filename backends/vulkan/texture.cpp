@@ -99,11 +99,9 @@ Result<void> make_views(Context& c, TextureObject& texture, const rhi::TextureDe
                                {0, 0, texture.mips, 0, texture.layers}, desc.debug_name));
     }
     if (has(desc.usage, TextureUsage::storage)) {
-        const VkImageViewType type =
-            desc.kind == rhi::TextureKind::flat ? VK_IMAGE_VIEW_TYPE_2D : VK_IMAGE_VIEW_TYPE_2D_ARRAY;
         for (std::uint32_t mip = 0; mip < texture.mips; ++mip) {
             PELLUCID_TRY(const VkImageView view,
-                         make_view(c, texture, type, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_USAGE_STORAGE_BIT,
+                         make_view(c, texture, seen, VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_USAGE_STORAGE_BIT,
                                    {0, mip, 1, 0, texture.layers}, desc.debug_name));
             texture.storage.push_back(view);
         }

@@ -28,10 +28,21 @@ void list_devices(rhi::BackendList<Bs...>) {
     (list(std::type_identity<Bs>{}), ...);
 }
 
+/// Reads the picture of the environment that was asked for.
+Result<void> read_environment(Options& options) {
+    if (options.environment.empty()) return {};
+    PELLUCID_TRY(ImageF picture, read_hdr(options.environment));
+    if (const Result<void> fit = check_environment(picture, options.environment); !fit)
+        return Error{Errc::parse, fit.error().message};
+    options.settings.environment.kind = EnvironmentKind::picture;
+    options.settings.environment.picture = std::make_shared<const ImageF>(std::move(picture));
+    return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    const auto [options, finished] = parse_options(argc, argv);
+    auto [options, finished] = parse_options(argc, argv);
     if (finished) return *finished;
     if (options.list_devices) {
         list_devices(Backends{});
@@ -42,6 +53,7 @@ int main(int argc, char** argv) {
             report(writable.error());
             return static_cast<int>(Exit::usage);
         }
+    if (const Result<void> read = read_environment(options); !read) return report(read.error());
     const Result<Scene> scene = load_gltf(options.scene);
     if (!scene) return report(scene.error());
     const Result<Camera> camera = choose_camera(*scene, options);
@@ -52,8 +64,8 @@ int main(int argc, char** argv) {
         const Result<int> status = run_reference(options, *scene, *camera, *target);
         return status ? *status : report(status.error());
     }
-    const Result<Result<int>> status =
-        rhi::with_backend(Backends{}, options.backend, [&]<rhi::Backend B>(std::type_identity<B>) -> Result<int> {
+    const Result<Result<int>> status = rhi::with_backend(
+        Backends{}, options.backend, [&, &options = options]<rhi::Backend B>(std::type_identity<B>) -> Result<int> {
             return run<B>(options, *scene, *camera, *target);
         });
     if (!status) return report(status.error());

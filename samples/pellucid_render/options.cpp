@@ -47,10 +47,15 @@ void add_picture_options(CLI::App& app, Options& o, Texts& t) {
                              {{"compute", ShadingStage::compute}, {"fragment", ShadingStage::fragment}},
                              "where lighting runs: compute or fragment");
     add_choice<Brdf>(app, "--brdf", o.settings.brdf,
-                     {{"gltf", Brdf::gltf}, {"seed", Brdf::seed}, {"blinn-phong", Brdf::blinn_phong}},
-                     "gltf, seed or blinn-phong");
-    app.add_option("--environment", t.environment, "none: no light but the scene's own")
-        ->check(CLI::IsMember({"none"}));
+                     {{"gltf", Brdf::gltf},
+                      {"seed", Brdf::seed},
+                      {"blinn-phong", Brdf::blinn_phong},
+                      {"conserving", Brdf::conserving}},
+                     "gltf, conserving (no energy is lost or made), seed or blinn-phong");
+    app.add_option("--environment", t.environment,
+                   "none: no light but the scene's own; sky: procedural; FILE.hdr: equirectangular, y up. Seen behind "
+                   "everything, unless --background is given")
+        ->option_text("none|sky|FILE.hdr");
     app.add_flag("!--no-default-light", o.settings.default_light, "no sun and ambient for a scene without lights");
     app.add_option("--background", t.background, "R,G,B linear");
     add_choice<ToneCurve>(app, "--tonemap", o.settings.tonemap,
@@ -157,6 +162,12 @@ std::string read_texts(const CLI::App& app, const Texts& t, Options& o) {
     for (const TransparencyTraits& m : all_transparencies)
         if (t.transparency == m.name) o.settings.transparency = m.method;
     if (t.environment == "none") o.settings.default_light = false;
+    if (t.environment == "sky") o.settings.environment.kind = EnvironmentKind::sky;
+    if (t.environment.ends_with(".hdr"))
+        o.environment = t.environment;
+    else if (!t.environment.empty() && t.environment != "none" && t.environment != "sky")
+        return "--environment is none, sky or a FILE.hdr, not '" + t.environment + "'";
+    o.settings.environment.backdrop = t.background.empty();
     if (app["--error-budget"]->count() > 0) o.error_budget = t.error_budget;
     for (const std::string& aov : t.aovs) {
         const std::size_t at = aov.find('=');

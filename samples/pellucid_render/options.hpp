@@ -16,6 +16,7 @@ struct Options {
     bool list_devices = false;
     std::string camera;  ///< index or name; empty: the scene's first, else one that frames the scene
     pellucid::RenderSettings settings;
+    std::string environment;          ///< file of the environment's picture, to be read into the settings
     bool chose_transparency = false;  ///< false: --transparency auto
     bool reference = false;           ///< draw on the CPU, in double, instead of on a device
     std::string out;

@@ -105,6 +105,7 @@ ordered_json passes_of(const Report& report) {
 ordered_json settings_of(const Report& report, const RenderSettings& s) {
     ordered_json json{
         {"transparency", report.translucency.method}, {"brdf", name(s.brdf)}, {"tonemap", name(s.tonemap)}};
+    json["environment"] = name(s.environment.kind);
     if (report.device)
         json.update({{"gbuffer", name(s.gbuffer)},
                      {"lighting", name(report.stats.lighting)},

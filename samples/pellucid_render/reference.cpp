@@ -19,16 +19,15 @@ Result<reference::Picture> draw_reference(const Options& options, const Scene& s
     reference::RenderOptions how{.size = s.size,
                                  .background = glm::dvec3(s.background),
                                  .lights = scene.lights,
-                                 .brdf = s.brdf == Brdf::gltf   ? reference::BrdfModel::gltf
-                                         : s.brdf == Brdf::seed ? reference::BrdfModel::seed
-                                                                : reference::BrdfModel::blinn_phong,
+                                 .brdf = static_cast<reference::BrdfModel>(s.brdf),  // the same names in one order
+                                 .environment = s.environment,
                                  .translucent = s.transparency != Transparency::none,
                                  .stability = stability,
                                  .progress = &ProgressBar::show,
                                  .user = &bar};
-    if (scene.lights.empty() && s.default_light) {
+    if (gets_default_sun(scene, s)) {
         how.lights.push_back(default_sun());
-        how.ambient = glm::dvec3(static_cast<double>(default_ambient));
+        if (s.environment.kind == EnvironmentKind::none) how.ambient = glm::dvec3(static_cast<double>(default_ambient));
     }
     return reference::render(scene, camera, how);
 }
@@ -70,7 +69,7 @@ Result<int> run_reference(const Options& options, const Scene& scene, const Came
     report.load_to_first_frame_ms = took.count();
     report.stats.warnings = scene.warnings;
     report.stats.lights = static_cast<std::uint32_t>(scene.lights.size());
-    if (scene.lights.empty() && options.settings.default_light) report.stats.lights = 1;
+    if (gets_default_sun(scene, options.settings)) report.stats.lights = 1;
     report.translucency = {.method = "reference",
                            .why = "--reference",
                            .exact = options.settings.transparency != Transparency::none || !has_translucent(scene),

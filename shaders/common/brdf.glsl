@@ -31,6 +31,14 @@ struct Shading {
     float punctual_roughness;  // the lobe's
 };
 
+// F_ms of reference/conserving.hpp: what the lobe of F0 returns of light that it scatters more than once.
+vec3 scattered_between(vec3 f0, float average_loss) {
+    EXACT vec3 mean = f0 + (vec3(1.0) - f0) * (1.0 / 21.0);
+    EXACT vec3 above = mean * mean * (1.0 - average_loss);
+    EXACT vec3 below = vec3(1.0) - mean * average_loss;
+    return vec3(quotient(above.r, below.r), quotient(above.g, below.g), quotient(above.b, below.b));
+}
+
 // The conserving model's diffuse factor and second lobe: reference/conserving.hpp (Kulla and Conty 2017; the diffuse part
 // Kelemen and Szirmay-Kalos 2001).
 void conserve(inout Shading s, vec3 base, float metallic) {
@@ -38,10 +46,7 @@ void conserve(inout Shading s, vec3 base, float metallic) {
     s.punctual_roughness = roughness;
     vec4 texel = dfg_texel(min(s.n_v, 1.0), roughness);
     Dfg eye = dfg_of_texel(texel, min(s.n_v, 1.0)), average = Dfg(texel.z, texel.w);
-    EXACT vec3 mean = s.f0 + (vec3(1.0) - s.f0) * (1.0 / 21.0);
-    EXACT vec3 between = mean * mean * (1.0 - average.loss);
-    EXACT vec3 below = vec3(1.0) - mean * average.loss;
-    between = vec3(quotient(between.r, below.r), quotient(between.g, below.g), quotient(between.b, below.b));
+    vec3 between = scattered_between(s.f0, average.loss);
     s.between = between;
     EXACT float loss = average.loss > 0.0 ? quotient(eye.loss * INV_PI, average.loss) : 0.0;
     s.loss = loss;

@@ -4,8 +4,8 @@
 // and the squared smooth spot cone.
 #ifndef PELLUCID_LIGHTING_GLSL
 #define PELLUCID_LIGHTING_GLSL
+#include "common/environment.glsl"
 #include "common/light_lists.glsl"
-#include "common/brdf.glsl"
 
 // What a lit point is, beside how it reflects.
 struct LitPoint {
@@ -75,6 +75,8 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
     if (needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) add_local_lights(sum, s, base, metallic, at);
     EXACT vec3 radiance = reflected(sum, s);
     if (needs(PELLUCID_NEED_AMBIENT)) radiance = radiance + base * (frame.ambient * occlusion);
+    if (needs(PELLUCID_NEED_SKY | PELLUCID_NEED_ENVIRONMENT))
+        radiance = radiance + environment_radiance(s, base, metallic) * occlusion;
     return radiance;
 }
 #endif

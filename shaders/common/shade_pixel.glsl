@@ -7,9 +7,16 @@
 #include "pellucid/gpu/interleaved.h"
 #endif
 
+vec3 background_radiance(ivec2 at) {
+    if (!needs(PELLUCID_NEED_BACKDROP)) return frame.background;
+    // Any depth will do: the direction of a ray is the same all along it.
+    vec3 p = view_from_depth(vec2(at) + 0.5, 0.5);
+    return min(environment_light(-direction_to_eye(p), 0.0), vec3(65504.0));
+}
+
 vec4 shade_pixel(ivec2 at) {
     Pixel p = read_gbuffer(at);
-    if (!p.covered) return vec4(frame.background, 1.0);
+    if (!p.covered) return vec4(background_radiance(at), 1.0);
     Surface s = p.surface;
     EXACT vec3 radiance = s.emissive;
     if (!(needs(PELLUCID_NEED_UNLIT) && s.unlit))

@@ -35,7 +35,7 @@ vec2 loss_and_bias(float mu, float alpha) {
     float k = 1.0 + sine, numerator = 2.0 * a2 * mu * k, top = 1.0 + wz;
     float none_below = numerator / (stretched * (k * k + a2 * mu * mu));
     float all_above = min(numerator / (stretched * (mu * mu + a2 * k * k)), top);
-    float scale = 0.0, bias = 0.0;
+    precise float scale = 0.0, bias = 0.0;  // the same bits on every API
     for (int panel = 0; panel < 2; ++panel) {
         float lower = panel == 0 ? none_below : all_above;
         float width = (panel == 0 ? all_above : top) - lower;
@@ -69,7 +69,7 @@ vec2 loss_and_bias(float mu, float alpha) {
             }
         }
     }
-    float loss = max(1.0 - (scale + bias), 0.0);
+    precise float loss = max(1.0 - (scale + bias), 0.0);
     return vec2(loss, min(bias, 1.0 - loss));
 }
 
@@ -87,7 +87,7 @@ void main() {
     row[column] = vec2(e.x, e.y - (1.0 - e.x) * fifth(1.0 - mu));
     barrier();
     // 2 ∫ E μ dμ over the cell from this texel to the next, of what a lookup there gives.
-    vec2 sum = vec2(0.0);
+    precise vec2 sum = vec2(0.0);
     if (column + 1u < uint(PELLUCID_DFG_SIZE)) {
         for (int i = 0; i < 4; ++i) {
             float f = i < 2 ? CELL_NODES[i] : 1.0 - CELL_NODES[3 - i];

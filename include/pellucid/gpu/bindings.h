@@ -22,5 +22,7 @@
 #define PELLUCID_BIND_LIGHTS 28
 #define PELLUCID_BIND_LIGHT_LISTS 29
 #define PELLUCID_BIND_TEXTURES 32  // 32 … 39: texture arrays
-#define PELLUCID_BIND_DFG 44       // directional albedo (gpu/dfg.h)
+#define PELLUCID_BIND_DFG 44          // directional albedo (gpu/dfg.h)
+#define PELLUCID_BIND_ENVIRONMENT 45  // cube: an environment's light, prefiltered (gpu/environment.h)
+#define PELLUCID_BIND_SKY 46          // the sky's light (scene/sky.hpp)
 #endif

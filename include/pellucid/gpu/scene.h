@@ -28,6 +28,9 @@
 #define PELLUCID_NEED_UNLIT 512u
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
+#define PELLUCID_NEED_SKY 65536u          // the procedural sky shines
+#define PELLUCID_NEED_ENVIRONMENT 131072u  // a picture of an environment shines
+#define PELLUCID_NEED_BACKDROP 262144u     // and is seen where nothing else is
 #define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
 #define PELLUCID_NEED_ALL 8191u
 // Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
@@ -57,7 +60,7 @@ struct FrameParams {
     vec3 ambient;     // [cd/m²] constant radiance from everywhere
     float exposure;   // factor before the tone map
     vec3 background;  // linear radiance where nothing is
-    uint reserved;
+    float environment_lod;  // last level of the prefiltered environment
     vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
     // One past the last directional light, the last point or spot light that reaches everywhere, and the last one of

@@ -38,7 +38,8 @@ struct SceneBinding {
                              {PELLUCID_BIND_LIGHT_LISTS, storage_buffer}}};
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i)
         layout.bindings.push_back({PELLUCID_BIND_TEXTURES + i, sampled_texture});
-    layout.bindings.push_back({PELLUCID_BIND_DFG, sampled_texture});
+    for (const std::uint32_t binding : {PELLUCID_BIND_DFG, PELLUCID_BIND_ENVIRONMENT, PELLUCID_BIND_SKY})
+        layout.bindings.push_back({binding, sampled_texture});
     return layout;
 }
 

@@ -3,12 +3,13 @@
 /// \file
 /// Punctual lights as KHR_lights_punctual means them, and the radiance of a surface under a list of them, in double.
 ///
-/// No shadows, no environment.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
+/// No shadows.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
 /// light at normal incidence [lx] times its linear colour:
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
 #include <cmath>
 #include <pellucid/reference/brdf.hpp>
+#include <pellucid/reference/image_based_light.hpp>
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
 #include <span>
@@ -56,10 +57,12 @@ struct LightSample {
 
 /// Radiance [cd/m²] towards `to_eye` (unit) of a surface at `position` [m, world].  Ambient light is the same radiance
 /// from everywhere, and a surface returns `ambient · base_color · occlusion` of it: a perfect diffuser for dielectrics,
-/// F0 for metals.  Lights are added in the order of the list.
+/// F0 for metals.  Lights are added in the order of the list, then what `environment` makes (image_based_light.hpp),
+/// dimmed by occlusion like ambient light; null: none.
 [[nodiscard]] inline glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
                                                  std::span<const Light> lights, glm::dvec3 ambient,
-                                                 BrdfModel model = BrdfModel::gltf) noexcept;
+                                                 BrdfModel model = BrdfModel::gltf,
+                                                 const EnvironmentLight* environment = nullptr);
 
 // ---------------------------------------------------------------------------------------------------- bodies
 
@@ -106,12 +109,14 @@ glm::dvec3 direction_to_eye(const Camera& camera, glm::dvec3 position) noexcept 
 }
 
 glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
-                            std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model) noexcept {
+                            std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model,
+                            const EnvironmentLight* environment) {
     glm::dvec3 radiance = surface.emissive + ambient * surface.base_color * surface.occlusion;
     for (const Light& light : lights) {
         const LightSample sample = sample_light(light, position);
         radiance += evaluate_brdf(model, surface, to_eye, sample.to_light).total() * sample.illuminance;
     }
+    if (environment) radiance += environment_response(surface, to_eye, *environment, model) * surface.occlusion;
     return radiance;
 }
 

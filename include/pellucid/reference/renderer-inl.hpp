@@ -75,7 +75,22 @@ inline Result<Prepared> prepare(const Scene& scene, const Camera& camera, const 
     out.options = &options;
     PELLUCID_CHECK(list_draws(scene, out));
     bind_materials(scene, out);
+    PELLUCID_CHECK(check_environment(options.environment));
+    if (options.environment.kind != EnvironmentKind::none) out.environment.emplace(options.environment);
     return out;
+}
+
+/// What is seen where nothing is, at the centre of pixel (x, y).
+inline glm::dvec3 behind(const Prepared& prepared, std::int64_t x, std::int64_t y) {
+    const RenderOptions& options = *prepared.options;
+    if (!prepared.environment || !prepared.environment->backdrop()) return options.background;
+    const Camera& camera = prepared.camera;
+    if (camera.projection == Projection::orthographic) return (*prepared.environment)(-prepared.backward(), 0);
+    const ClipFromView& clip = prepared.clip;
+    const glm::dvec2 ndc(2 * (static_cast<double>(x) + 0.5) / options.size.width - 1,
+                         1 - 2 * (static_cast<double>(y) + 0.5) / options.size.height);
+    const glm::dvec3 ray((ndc.x - clip.ox) / clip.sx, (ndc.y - clip.oy) / clip.sy, -1);  // w = 1 there
+    return (*prepared.environment)(glm::normalize(glm::dmat3(camera.world_from_view) * ray), 0);
 }
 
 inline void draw_tile(const Prepared& prepared, const PixelRect& rect, std::span<const std::uint32_t> primitives,
@@ -94,7 +109,7 @@ inline void draw_tile(const Prepared& prepared, const PixelRect& rect, std::span
                 layers += fragment.opaque ? 0 : 1;
             }
             const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(y);
-            const glm::dvec3 radiance = composite.over(options.background);
+            const glm::dvec3 radiance = composite.over(behind(prepared, x, y));
             for (int c = 0; c < 3; ++c) out.radiance.texel(column, row)[c] = static_cast<float>(radiance[c]);
             *out.layers.texel(column, row) = layers;
         }

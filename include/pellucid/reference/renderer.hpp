@@ -23,6 +23,7 @@
 #include <pellucid/core/image.hpp>
 #include <pellucid/core/result.hpp>
 #include <pellucid/reference/brdf.hpp>
+#include <pellucid/scene/environment.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <vector>
 
@@ -37,6 +38,7 @@ struct RenderOptions {
     std::vector<Light> lights = {};    ///< used as they are: pass Scene::lights or a default light
     glm::dvec3 ambient{0, 0, 0};       ///< [cd/m²] the same radiance from everywhere; finite
     BrdfModel brdf = BrdfModel::gltf;  ///< of every lit surface
+    Environment environment = {};      ///< light from all around; its backdrop replaces the background
     bool translucent = true;           ///< false: blended surfaces are left out
     bool stability = false;            ///< also fill Picture::stable, at nine times the rasterisation
     /// N: corners in front of the eye are first moved to the nearest points of a grid of 1/N pixel, as devices move

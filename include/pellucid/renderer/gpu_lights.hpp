@@ -62,9 +62,9 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
                                           const RenderSettings& settings, const SceneNeeds& needs) {
     GpuLights out;
     out.sources_ = scene.lights;
-    if (scene.lights.empty() && settings.default_light) {
+    if (gets_default_sun(scene, settings)) {
         out.sources_.push_back(default_sun());
-        out.ambient_ = true;
+        out.ambient_ = settings.environment.kind == EnvironmentKind::none;
     }
     const auto kind = [](const Light& l) { return l.kind == LightKind::directional ? 0 : reaches_an_end(l) ? 2 : 1; };
     std::stable_sort(out.sources_.begin(), out.sources_.end(),
@@ -86,7 +86,8 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
                                             " bytes: draw a smaller picture, or ask for --lighting loop"};
     const auto make = [&](std::uint64_t size, const char* debug_name) {
         using enum rhi::BufferUsage;
-        return device.make_buffer({.size = size, .usage = storage | copy_destination | copy_source, .debug_name = debug_name});
+        return device.make_buffer(
+            {.size = size, .usage = storage | copy_destination | copy_source, .debug_name = debug_name});
     };
     PELLUCID_OWN(out.records_, device, make(out.record_data_.size() * sizeof(gpu::LightRecord), "scene.lights"));
     PELLUCID_OWN(out.lists_, device, make(bytes, "scene.light_lists"));

@@ -143,10 +143,14 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     std::vector<gpu::MaterialRecord> materials;
     for (const Material& m : scene.materials) materials.push_back(gpu_material(m, plan));
 
-    PELLUCID_TRY(out.lights_, GpuLights<B>::create(device, scene, settings, scene_needs(scene, settings)));
-    out.lights_->each_resource([&](const char* debug_name, std::uint64_t bytes) {
+    const SceneNeeds needs = scene_needs(scene, settings);
+    PELLUCID_TRY(out.lights_, GpuLights<B>::create(device, scene, settings, needs));
+    PELLUCID_TRY(out.environment_, GpuEnvironment<B>::create(device, settings, needs));
+    const auto report = [&](const char* debug_name, std::uint64_t bytes) {
         out.resources_.push_back({debug_name, bytes, false});
-    });
+    };
+    out.lights_->each_resource(report);
+    out.environment_->each_resource(report);
 
     using enum rhi::BufferUsage;
     PELLUCID_CHECK(
@@ -187,6 +191,7 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
             {.binding = PELLUCID_BIND_TEXTURES + i, .texture = out.textures_[at], .sampler = out.samplers_[at]});
         if (i == at) out.binding_.uses.push_back(rhi::use(out.textures_[at], rhi::Access::sampled));
     }
+    out.environment_->bind(group, out.binding_.uses);
     PELLUCID_OWN(out.group_, device, device.make_group(group));
     out.binding_.group = out.group_;
     out.binding_.indices = out.indices_;
@@ -213,6 +218,7 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
     f.camera_position = to_gpu(glm::dvec3(w[3]));
     f.draw_count = instances();
     lights_->describe(f);
+    f.environment_lod = environment_->last_level();
     return f;
 }
 

@@ -6,6 +6,7 @@
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
+#include <pellucid/renderer/gpu_environment.hpp>
 #include <pellucid/renderer/gpu_lights.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/scene_convert.hpp>
@@ -42,6 +43,7 @@ public:
     [[nodiscard]] std::uint32_t translucent_culls() const noexcept { return translucent_culls_; }
     [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }
     [[nodiscard]] const GpuLights<B>& lights() const noexcept { return *lights_; }
+    [[nodiscard]] const GpuEnvironment<B>& environment() const noexcept { return *environment_; }
     [[nodiscard]] std::uint64_t triangles() const noexcept { return triangles_; }
     [[nodiscard]] const std::vector<TextureReport>& resources() const noexcept { return resources_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
@@ -71,6 +73,7 @@ private:
     std::vector<SortedItem> sorted_;
     std::vector<std::uint8_t> mirrored_;
     std::optional<GpuLights<B>> lights_;
+    std::optional<GpuEnvironment<B>> environment_;
     std::uint32_t opaque_culls_ = 0, translucent_culls_ = 0;
     std::uint64_t triangles_ = 0;
     SceneBinding binding_;

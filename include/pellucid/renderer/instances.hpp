@@ -21,6 +21,9 @@
     how template class InterleavedPass<B>;     \
     how template class InterleavedSkyxPass<B>; \
     how template class TonemapPass<B>;         \
+    how template class DfgPass<B>;             \
+    how template class EnvironmentPass<B>;     \
+    how template class GpuEnvironment<B>;      \
     how template class GpuLights<B>;           \
     how template class GpuScene<B>;            \
     how template class Translucent<B>;         \

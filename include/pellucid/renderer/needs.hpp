@@ -18,6 +18,7 @@ struct SceneNeeds {
     std::uint32_t ranged = 0;                            ///< of those, with a range
     LightAssignment assignment = LightAssignment::loop;  ///< of placed lights; never automatic
     std::string assignment_why;                          ///< why, where it is not the one that was asked for
+    bool albedo_table = false;                           ///< image-based light or the conserving model looks it up
     LightGrid grid;                                      ///< of tiled and clustered; empty for others
     bool opaque = false;           ///< any opaque or masked instance, or translucent ones are lit as they are
     bool lighting = false;         ///< a G-buffer and a lighting pass: light falls on them, or the G-buffer is kept
@@ -36,6 +37,11 @@ struct SceneNeeds {
 }
 /// [cd/m²] the constant ambient of a scene without lights.
 inline constexpr float default_ambient = 0.25f;
+
+/// Whether a scene without lights gets the default sun: not under a picture, which has a sun of its own.
+[[nodiscard]] inline bool gets_default_sun(const Scene& scene, const RenderSettings& settings) {
+    return scene.lights.empty() && settings.default_light && settings.environment.kind != EnvironmentKind::picture;
+}
 
 /// That a device can run a method of transparency.  Error: `unsupported`: what the method needs, what there is.
 [[nodiscard]] inline Result<void> check_device(Transparency method, const rhi::DeviceInfo& device) {
@@ -126,21 +132,32 @@ inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std
         needs.ranged += light.kind != LightKind::directional && reaches_an_end(light) ? 1 : 0;
     }
     needs.lights = static_cast<std::uint32_t>(scene.lights.size());
-    if (scene.lights.empty() && settings.default_light) {
-        needs.mask |= PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_AMBIENT;
+    const EnvironmentKind environment = settings.environment.kind;
+    if (gets_default_sun(scene, settings)) {
+        mark(PELLUCID_NEED_DIRECTIONAL, true);
+        mark(PELLUCID_NEED_AMBIENT, environment == EnvironmentKind::none);
         needs.lights = 1;
     }
+    mark(PELLUCID_NEED_SKY, environment == EnvironmentKind::sky);
+    mark(PELLUCID_NEED_ENVIRONMENT, environment == EnvironmentKind::picture);
+    constexpr std::uint32_t around = PELLUCID_NEED_SKY | PELLUCID_NEED_ENVIRONMENT;
+    mark(PELLUCID_NEED_BACKDROP, needs.has(around) && settings.environment.backdrop);
     constexpr std::uint32_t lights = PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS;
-    const bool shines = needs.has(lights | PELLUCID_NEED_AMBIENT);
-    needs.lighting = needs.opaque && ((lit_opaque && shines) || deferred || settings.keep_gbuffer);
-    mark(PELLUCID_NEED_NORMALS, (lit && needs.has(lights)) || (needs.opaque && settings.keep_gbuffer));
+    const bool shines = needs.has(lights | PELLUCID_NEED_AMBIENT | around);
+    // The lighting pass draws the environment behind everything, too.
+    needs.opaque = needs.opaque || needs.has(PELLUCID_NEED_BACKDROP);
+    needs.lighting = needs.opaque &&
+                     ((lit_opaque && shines) || deferred || settings.keep_gbuffer || needs.has(PELLUCID_NEED_BACKDROP));
+    mark(PELLUCID_NEED_NORMALS, (lit && needs.has(lights | around)) || (needs.opaque && settings.keep_gbuffer));
     if (settings.every_need) {
-        needs.mask = PELLUCID_NEED_ALL;
+        needs.mask = PELLUCID_NEED_ALL | (needs.mask & (around | PELLUCID_NEED_BACKDROP));
         needs.emissive_target = true;
         needs.opaque = true;
         needs.lighting = true;
         needs.translucent = settings.transparency != Transparency::none;
     }
+    needs.albedo_table = needs.has(PELLUCID_NEED_NORMALS) &&
+                         (needs.has(around) || (settings.brdf == Brdf::conserving && needs.has(lights)));
     detail::assign_lights(
         needs, settings,
         (needs.lighting ? PELLUCID_LIGHTS_OPAQUE : 0u) |

@@ -17,6 +17,7 @@ Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& dev
                                                  std::to_string(limit) + " on " + device.info().name};
     PELLUCID_CHECK(check_device(settings.transparency, device.info()));
     PELLUCID_CHECK(check_lights(scene.lights));
+    PELLUCID_CHECK(check_environment(settings.environment));
     std::unique_ptr<Renderer> renderer(new Renderer(device));
     renderer->settings_ = settings;
     PELLUCID_CHECK(renderer->build(scene));
@@ -28,6 +29,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     needs_ = scene_needs(scene, settings_);
     warnings_ = scene.warnings;
     PELLUCID_TRY(scene_, GpuScene<B>::create(*device_, scene, settings_));
+    pipelines_ += scene_->environment().pipelines();
     PELLUCID_TRY(clock_, FrameClock<B>::create(*device_));
 
     using enum rhi::TextureUsage;

@@ -7,6 +7,7 @@
 #include <pellucid/passes/light_lists.hpp>
 #include <pellucid/passes/lighting.hpp>
 #include <pellucid/passes/tonemap.hpp>
+#include <pellucid/scene/environment.hpp>
 #include <glm/vec3.hpp>
 #include <cstdint>
 #include <iterator>
@@ -112,6 +113,7 @@ struct RenderSettings {
     ToneCurve tonemap = ToneCurve::neutral;
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve
     glm::vec3 background{0.05f, 0.05f, 0.08f};  ///< linear radiance where nothing is
+    Environment environment = {};               ///< light from all around
     bool default_light = true;                  ///< a scene without lights gets one sun and a constant ambient
     std::uint32_t max_layers = 0;     ///< of peel and peel_seed, passes of dual_peel; 0: all there are (peel_seed: 6)
     bool seed_composite = false;      ///< peel_seed: composite with the factors that its document has by mistake

@@ -105,7 +105,7 @@ struct TextureDesc {
     std::uint32_t layers = 1;  ///< array layers; 6 for a cube
     std::uint32_t mips = 1;    ///< 1 … floor(log2(max(size))) + 1
     Format format = Format::rgba8_unorm;
-    TextureKind kind = TextureKind::flat;  ///< what the shader sees: sampler2D, sampler2DArray, samplerCube
+    TextureKind kind = TextureKind::flat;  ///< what the shader sees: sampler2D, sampler2DArray, samplerCube; image2D, …
     TextureUsage usage = TextureUsage::sampled;
     /// Empty, or all texels: mip 0 (all layers, row 0 = top, tightly packed), then mip 1, …
     std::span<const std::byte> initial = {};

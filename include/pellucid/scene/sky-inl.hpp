@@ -84,6 +84,15 @@ private:
 
 }  // namespace detail
 
+PELLUCID_INLINE glm::dvec3 prefiltered_sky(const Sky& sky, double y, double roughness) {
+    if (roughness == 0) return sky_radiance(sky, y);
+    static const detail::SkyFilter filter;
+    // A lobe narrower than this is a mirror's to 0.01 %.
+    const double alpha = std::max(roughness * roughness, 1e-6), at = std::clamp(y, -1.0, 1.0);
+    const glm::dvec3 horizon(sky.horizon), zenith(sky.zenith), nadir(sky.nadir);
+    return horizon + (zenith - horizon) * filter(at, alpha) + (nadir - horizon) * filter(-at, alpha);
+}
+
 PELLUCID_INLINE ImageF make_sky_table(const Sky& sky) {
     constexpr std::uint32_t half = sky_columns / 2;
     const detail::SkyFilter filter;

@@ -59,6 +59,9 @@ template <std::floating_point T>
 /// Made by Gauss rules split at the horizon; within 0.01 % of converged integrals at each texel.
 [[nodiscard]] ImageF make_sky_table(const Sky& sky = {});
 
+/// One value of it in double, within 0.01 % of the integral: y in [-1,1], roughness in [0,1].
+[[nodiscard]] glm::dvec3 prefiltered_sky(const Sky& sky, double y, double roughness);
+
 /// The table's lookup on the CPU, as a shader does it.  With `roughness` 1 and y of a normal: diffuse light.
 template <std::floating_point T>
 [[nodiscard]] glm::vec<3, T> sample_sky_table(const ImageF& table, T y, T roughness) noexcept {

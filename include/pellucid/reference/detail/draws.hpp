@@ -57,6 +57,7 @@ struct Prepared {
     std::vector<TexturedMaterial> materials;                                     ///< of Scene::materials
     std::vector<Draw> draws;
     std::uint32_t primitives = 0;
+    std::optional<EnvironmentLight> environment;
 
     [[nodiscard]] RasterTriangle triangle(const Draw& draw, std::uint32_t primitive) const noexcept {
         const std::uint32_t* at = draw.corners(primitive);

@@ -157,7 +157,7 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
 }
 
 /// Shades a hit at the centre of pixel (x, y).
-[[nodiscard]] inline Fragment shade(const Prepared& prepared, const Hit& hit, std::int64_t x, std::int64_t y) noexcept {
+[[nodiscard]] inline Fragment shade(const Prepared& prepared, const Hit& hit, std::int64_t x, std::int64_t y) {
     const Draw& draw = prepared.draws[hit.draw];
     const TexturedMaterial& material = *draw.material;
     const RenderOptions& options = *prepared.options;
@@ -174,8 +174,9 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
         fragment.radiance = glm::dvec3(base);
     } else {
         const Surface<double> surface = surface_at(material, at, change, draw.front(triangle), prepared.backward());
-        fragment.radiance = surface_radiance(surface, at.position, direction_to_eye(prepared.camera, at.position),
-                                             options.lights, options.ambient, options.brdf);
+        fragment.radiance =
+            surface_radiance(surface, at.position, direction_to_eye(prepared.camera, at.position), options.lights,
+                             options.ambient, options.brdf, prepared.environment ? &*prepared.environment : nullptr);
     }
     fragment.premultiplied =
         material.factors.premultiplied && draw.blended() ? fragment.radiance : fragment.radiance * fragment.alpha;
