@@ -2,6 +2,7 @@
 // The prefiltered cube map that a device makes of a picture, against integrals in double; and what is seen of it.
 #include <cstring>
 #include <pellucid/reference/image_based_light.hpp>
+#include <pellucid/reference/renderer.hpp>
 #include "support/assets.hpp"
 #include "support/scene.hpp"
 

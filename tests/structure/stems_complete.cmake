@@ -20,6 +20,10 @@ set(methods sorted_forward abuffer peel peel_seed dual_peel interleaved interlea
 # Parts of a method that cannot do without: the counts in pictures of the reference renderer are their reference, and
 # whoever measures the method measures them.
 set(parts_of_methods layer_count)
+# Passes whose formulae are those of another stem, or that another stem's benchmark measures beside its own.
+set(light_volumes_reference lighting)
+set(light_volumes_benchmark light_lists)
+set(dfg_benchmark brdf)
 # Methods without a struct file of their own.
 set(without_struct abuffer)  # it binds what gpu/list_compositor.h names
 # Folders of shaders/ and files of gpu/ that belong to no pass.
@@ -83,6 +87,8 @@ foreach(stem IN LISTS stems)
     if(NOT translucent MATCHES "#include <pellucid/passes/${stem}\\.hpp>")
       message(SEND_ERROR "'${stem}' is no part of renderer/translucent.hpp: it needs a reference of its own")
     endif()
+  elseif(DEFINED ${stem}_reference)
+    require(${stem} include/pellucid/reference/${${stem}_reference}.hpp)
   else()
     require(${stem} include/pellucid/reference/${stem}.hpp)
   endif()
@@ -90,7 +96,9 @@ foreach(stem IN LISTS stems)
   if(stem IN_LIST parts_of_methods OR (stem IN_LIST methods AND measured MATCHES "{Transparency::${stem}[,}]"))
     set(measured_there ON)
   endif()
-  if(NOT measured_there)
+  if(DEFINED ${stem}_benchmark)
+    require(${stem} benchmarks/${${stem}_benchmark}.cpp)
+  elseif(NOT measured_there)
     require(${stem} benchmarks/${stem}.cpp)
   endif()
 endforeach()
