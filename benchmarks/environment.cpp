@@ -74,8 +74,8 @@ struct Measure {
         std::vector<EnvironmentPass<B>> passes;
         passes.reserve(4);
         std::vector<std::size_t> first_row;
-        for (const std::uint32_t size : {32u, 64u, 128u, 256u}) {
-            if (size > (settings.quick ? 32u : settings.software ? 64u : 256u)) continue;
+        for (const std::uint32_t size : {64u, 128u, 256u}) {
+            if (size > (settings.software ? 64u : 256u)) continue;
             PELLUCID_TRY(auto made, EnvironmentPass<B>::create(device, picture, size));
             passes.push_back(std::move(made));
             const EnvironmentPass<B>& pass = passes.back();

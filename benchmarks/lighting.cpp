@@ -101,7 +101,7 @@ struct Measure {
         const Extent2D size = settings.size;
         const double pixels = static_cast<double>(size.width) * size.height;
         const std::uint32_t samples = settings.quick ? 100 : 500;
-        const RenderSettings render{.size = size, .default_light = false};
+        const RenderSettings render{.size = size, .lighting = LightAssignment::loop, .default_light = false};
         SpeedErrorTable table{
             .stem = "lighting", .baseline = "floor", .error = "radiance, scaled by max(1, reference)"};
 

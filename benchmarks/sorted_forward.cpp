@@ -102,7 +102,10 @@ struct Measure {
     Result<SpeedErrorTable> operator()(std::type_identity<B>, rhi::DeviceFor<B>& device,
                                        const PassSettings& settings) const {
         const Extent2D size = settings.size;
-        const RenderSettings render{.size = size, .transparency = Transparency::sorted, .default_light = false};
+        const RenderSettings render{.size = size,
+                                    .transparency = Transparency::sorted,
+                                    .lighting = LightAssignment::loop,
+                                    .default_light = false};
         SpeedErrorTable table{
             .stem = "sorted_forward", .baseline = "plain blending", .error = "radiance, scaled by max(1, reference)"};
         std::vector<Case> cases;

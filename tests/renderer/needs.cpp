@@ -250,3 +250,80 @@ TEST_CASE("a scene without opaque surfaces has no G-buffer, and an empty one no 
     for (const char* name : {"gbuffer", "lighting", "sorted_forward", "tonemap"}) CHECK(pass(s, name).ran);
     CHECK(has(s, "gbuffer.emissive"));
 }
+
+TEST_CASE("lists, volumes and environments are built where they are needed, and nowhere else", "[cpu]") {
+    Scene scene = plain();
+    const RenderSettings base{.transparency = Transparency::sorted};
+    const RenderStats none = stats_of(scene, base);
+    const auto has_pass = [](const RenderStats& stats, const std::string& name) {
+        return std::any_of(stats.passes.begin(), stats.passes.end(),
+                           [&](const PassReport& p) { return p.name == name && p.ran; });
+    };
+    for (const char* resource :
+         {"scene.light_lists", "scene.light_bounds", "scene.dfg", "scene.environment", "scene.sky"})
+        CHECK_FALSE(has(none, resource));
+    // A sun needs no list, whatever is asked for.
+    for (const LightAssignment method :
+         {LightAssignment::tiled, LightAssignment::clustered, LightAssignment::volumes}) {
+        RenderSettings asked = base;
+        asked.lighting = method;
+        const RenderStats s = stats_of(scene, asked);
+        CHECK(s.lighting == LightAssignment::loop);
+        CHECK_FALSE(s.lighting_why.empty());
+        CHECK(s.bytes == none.bytes);
+        CHECK(s.pipelines == none.pipelines);
+    }
+    // 20 lamps do.
+    scene.lights.assign(20, {.kind = LightKind::point, .range = 1});
+    RenderSettings settings = base;
+    settings.lighting = LightAssignment::loop;
+    const RenderStats loop = stats_of(scene, settings);
+    CHECK_FALSE(has_pass(loop, "light_lists"));
+    settings.lighting = LightAssignment::tiled;
+    const RenderStats tiled = stats_of(scene, settings);
+    CHECK(has_pass(tiled, "light_lists"));
+    CHECK(tiled.pipelines == loop.pipelines + 1);
+    // 32 x 16 pixels: two tiles of a list of two words for opaque surfaces alone; 20 bounds of 16 bytes.
+    CHECK(tiled.bytes == loop.bytes + 2 * 2 * 4 + 20 * 16);
+    settings.lighting = LightAssignment::clustered;
+    const RenderStats clustered = stats_of(scene, settings);
+    CHECK(clustered.pipelines == loop.pipelines + 2);
+    CHECK(clustered.bytes == loop.bytes + (2 + PELLUCID_LIGHTS_SLICES) * 2 * 4 + 20 * 16);
+    settings.lighting = LightAssignment::automatic;
+    CHECK(stats_of(scene, settings).lighting == LightAssignment::clustered);
+    settings.lighting = LightAssignment::volumes;
+    const RenderStats volumes = stats_of(scene, settings);
+    CHECK(has_pass(volumes, "light_volumes"));
+    CHECK_FALSE(has_pass(volumes, "light_lists"));
+    CHECK(has(volumes, "light_volumes.stencil"));
+    CHECK(volumes.pipelines == loop.pipelines + 4);
+
+    // The sky takes its table and that of albedo; a picture its cube map too; a model that conserves energy one table.
+    scene = plain();
+    settings = base;
+    settings.brdf = Brdf::conserving;
+    CHECK(has(stats_of(scene, settings), "scene.dfg"));
+    scene.materials[0].unlit = true;
+    CHECK_FALSE(has(stats_of(scene, settings), "scene.dfg"));
+    scene.materials[0].unlit = false;
+    settings = base;
+    settings.environment.kind = EnvironmentKind::sky;
+    const RenderStats sky = stats_of(scene, settings);
+    CHECK(has(sky, "scene.sky"));
+    CHECK(has(sky, "scene.dfg"));
+    CHECK_FALSE(has(sky, "scene.environment"));
+    CHECK(sky.bytes == none.bytes + 64 * 16 * 16 + 128 * 128 * 8);
+    settings.environment.kind = EnvironmentKind::picture;
+    settings.environment.picture = std::make_shared<const ImageF>(ImageF(64, 32, 3));
+    const RenderStats picture = stats_of(scene, settings);
+    CHECK(has(picture, "scene.environment"));
+    CHECK_FALSE(has(picture, "scene.sky"));
+    CHECK(picture.bytes == none.bytes + 128 * 128 * 8 + 6 * (16 * 16 + 8 * 8) * 8);
+    // What cannot be is refused.
+    null::Device device;
+    settings.environment.picture = nullptr;
+    CHECK(Renderer<Null>::create(device, scene, settings).error().message.find("has no picture") != std::string::npos);
+    settings.environment.picture = std::make_shared<const ImageF>(ImageF(33, 16, 3));
+    CHECK(Renderer<Null>::create(device, scene, settings).error().message.find("twice as wide as high") !=
+          std::string::npos);
+}

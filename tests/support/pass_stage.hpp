@@ -29,6 +29,7 @@ public:
     PassStage(Device& device, const Scene& scene, const Setup& setup) : device_(&device), setup_(setup) {
         settings_.size = setup.size;
         settings_.transparency = setup.method;
+        settings_.lighting = LightAssignment::loop;  // no pass makes lists here
         settings_.default_light = false;
         settings_.exact = setup.exact;
         needs_ = scene_needs(scene, settings_);

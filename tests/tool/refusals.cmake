@@ -24,6 +24,15 @@ foreach(share 1 1.5 -0.1 nan inf x 0.5x)
 endforeach()
 expect(2 "--transparency: magic not in .auto,none,sorted,.*abuffer" ${asked} --transparency magic)
 
+expect(2 "--lighting: forward not in .*clustered" ${asked} --lighting forward)
+expect(2 "--environment is none, sky or a FILE.hdr, not 'stars'" ${asked} --environment stars)
+expect(3 "none.hdr: there is no such file" ${asked} --environment ${WORK}/none.hdr)
+file(WRITE ${WORK}/broken.hdr "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\nabc")
+expect(3 "broken.hdr: " ${asked} --environment ${WORK}/broken.hdr)
+string(REPEAT "abcd" 9 texels)
+file(WRITE ${WORK}/square.hdr "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 3 +X 3\n${texels}")
+expect(3 "square.hdr: has 3 x 3 texels .*twice as wide as high" ${asked} --environment ${WORK}/square.hdr)
+
 # Budgets that do not hold a strip of eight rows: 64 × 8 pixels of three fragments of 16 bytes.
 expect(2 "rows 0 to 7 of the picture alone take 24576 bytes, and the memory budget has room for 24560 bytes" ${asked}
   --memory-budget 24575)
