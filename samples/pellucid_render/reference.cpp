@@ -22,6 +22,7 @@ Result<reference::Picture> draw_reference(const Options& options, const Scene& s
                                  .brdf = s.brdf == Brdf::gltf   ? reference::BrdfModel::gltf
                                          : s.brdf == Brdf::seed ? reference::BrdfModel::seed
                                                                 : reference::BrdfModel::blinn_phong,
+                                 .shadows = s.shadows != Shadows::none,
                                  .translucent = s.transparency != Transparency::none,
                                  .stability = stability,
                                  .progress = &ProgressBar::show,

@@ -6,6 +6,7 @@
 #define PELLUCID_LIGHTING_GLSL
 #include "common/light_lists.glsl"
 #include "common/brdf.glsl"
+#include "common/shadow.glsl"
 
 // What a lit point is, beside how it reflects.
 struct LitPoint {
@@ -39,6 +40,7 @@ vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
     }
     if (!(n_l > 0.0 && strength > 0.0)) return vec3(0.0);
     EXACT vec3 radiance = reflectance(s, base, metallic, l, n_l) * (light.intensity * strength);
+    if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, p, s.normal, -d);
     return radiance;
 }
 
@@ -50,7 +52,10 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
     if (needs(PELLUCID_NEED_DIRECTIONAL)) {
         for (uint i = 0u; i < frame.light_ends.x; ++i) {
             float n_l = dot3(normal, lights[i].to_light);
-            if (n_l > 0.0) sum = sum + reflectance(s, base, metallic, lights[i].to_light, n_l) * lights[i].intensity;
+            if (!(n_l > 0.0)) continue;
+            EXACT vec3 radiance = reflectance(s, base, metallic, lights[i].to_light, n_l) * lights[i].intensity;
+            if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, at.p, normal, vec3(0.0));
+            sum = sum + radiance;
         }
     }
     if (!needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) return sum;

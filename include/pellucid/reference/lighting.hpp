@@ -3,7 +3,7 @@
 /// \file
 /// Punctual lights as KHR_lights_punctual means them, and the radiance of a surface under a list of them, in double.
 ///
-/// No shadows, no environment.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
+/// No environment; shadows are for whoever calls to say.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
 /// light at normal incidence [lx] times its linear colour:
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
@@ -67,6 +67,20 @@ struct LightSample {
 [[nodiscard]] inline glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
                                                  std::span<const Light> lights, glm::dvec3 ambient,
                                                  BrdfModel model = BrdfModel::gltf) noexcept;
+
+/// The same of the lights that get there: `visible(light, to_light)` says so of one that lights the surface.
+template <class Visible>
+[[nodiscard]] glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
+                                          std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model,
+                                          Visible&& visible) {
+    glm::dvec3 radiance = surface.emissive + ambient * surface.base_color * surface.occlusion;
+    for (const Light& light : lights) {
+        const LightSample sample = sample_light(light, position);
+        const glm::dvec3 added = evaluate_brdf(model, surface, to_eye, sample.to_light).total() * sample.illuminance;
+        if (added != glm::dvec3(0) && visible(light, sample.to_light)) radiance += added;
+    }
+    return radiance;
+}
 
 // ---------------------------------------------------------------------------------------------------- bodies
 
@@ -139,12 +153,8 @@ glm::dvec3 direction_to_eye(const Camera& camera, glm::dvec3 position) noexcept 
 
 glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
                             std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model) noexcept {
-    glm::dvec3 radiance = surface.emissive + ambient * surface.base_color * surface.occlusion;
-    for (const Light& light : lights) {
-        const LightSample sample = sample_light(light, position);
-        radiance += evaluate_brdf(model, surface, to_eye, sample.to_light).total() * sample.illuminance;
-    }
-    return radiance;
+    return surface_radiance(surface, position, to_eye, lights, ambient, model,
+                            [](const Light&, const glm::dvec3&) { return true; });
 }
 
 }  // namespace pellucid::reference

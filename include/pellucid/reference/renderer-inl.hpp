@@ -11,6 +11,7 @@
 #include <mutex>
 #include <new>
 #include <pellucid/reference/detail/fragments.hpp>
+#include <pellucid/reference/detail/shadow_rays.hpp>
 #include <pellucid/reference/detail/tiles.hpp>
 #include <pellucid/reference/renderer.hpp>
 #include <span>
@@ -75,6 +76,7 @@ inline Result<Prepared> prepare(const Scene& scene, const Camera& camera, const 
     out.options = &options;
     PELLUCID_CHECK(list_draws(scene, out));
     bind_materials(scene, out);
+    if (options.shadows) out.casters = caster_tree(out);
     return out;
 }
 

@@ -12,6 +12,7 @@
     how template class LightListsPass<B>;      \
     how template class LightingPass<B>;        \
     how template class LightVolumesPass<B>;    \
+    how template class ShadowMapPass<B>;       \
     how template class SortedForwardPass<B>;   \
     how template class LayerCountPass<B>;      \
     how template class AbufferPass<B>;         \
@@ -22,6 +23,7 @@
     how template class InterleavedSkyxPass<B>; \
     how template class TonemapPass<B>;         \
     how template class GpuLights<B>;           \
+    how template class GpuShadows<B>;          \
     how template class GpuScene<B>;            \
     how template class Translucent<B>;         \
     how template class Renderer<B>;
