@@ -13,5 +13,5 @@ void main() {
     if (!p.covered || (needs(PELLUCID_NEED_UNLIT) && p.surface.unlit)) return;
     Surface s = p.surface;
     Shading shading = make_shading(s.base, s.metallic, s.roughness, s.normal, direction_to_eye(p.position));
-    out_light = vec4(local_light(volume.light, shading, s.base, s.metallic, p.position), 0.0);
+    out_light = vec4(local_light(volume.light, shading, s.base, s.metallic, p.position, p.plane), 0.0);
 }

@@ -12,14 +12,16 @@
 struct LitPoint {
     vec3 p;       // view space
     vec3 to_eye;  // unit
+    vec3 plane;   // unit normal of the surface that shadows fall on
     uvec2 lists;  // lights_at
 };
-LitPoint lit_point(ivec2 pixel, vec3 p, bool translucent) {
-    return LitPoint(p, direction_to_eye(p), lights_at(pixel, p, translucent));
+// Translucent surfaces cast no shadow, so none of their own can fall on them: their shading normal will do for `plane`.
+LitPoint lit_point(ivec2 pixel, vec3 p, vec3 plane, bool translucent) {
+    return LitPoint(p, direction_to_eye(p), plane, lights_at(pixel, p, translucent));
 }
 
 // Radiance that a point or spot light makes.  Exactly 0 where its range or cone ends.
-vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
+vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p, vec3 plane) {
     LightRecord light = lights[i];
     EXACT vec3 d = light.position - p;
     EXACT float d2 = max(dot3(d, d), 1e-6);
@@ -40,7 +42,7 @@ vec3 local_light(uint i, Shading s, vec3 base, float metallic, vec3 p) {
     }
     if (!(n_l > 0.0 && strength > 0.0)) return vec3(0.0);
     EXACT vec3 radiance = reflectance(s, base, metallic, l, n_l) * (light.intensity * strength);
-    if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, p, s.normal, -d);
+    if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, p, plane, -d);
     return radiance;
 }
 
@@ -54,7 +56,7 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
             float n_l = dot3(normal, lights[i].to_light);
             if (!(n_l > 0.0)) continue;
             EXACT vec3 radiance = reflectance(s, base, metallic, lights[i].to_light, n_l) * lights[i].intensity;
-            if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, at.p, normal, vec3(0.0));
+            if (needs(PELLUCID_NEED_SHADOWS)) radiance = radiance * shadow_light(i, at.p, at.plane, vec3(0.0));
             sum = sum + radiance;
         }
     }
@@ -70,12 +72,12 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
                 while (bits != 0u) {
                     uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
                     bits &= bits - 1u;
-                    sum = sum + local_light(i, s, base, metallic, at.p);
+                    sum = sum + local_light(i, s, base, metallic, at.p, at.plane);
                 }
             }
         }
     } else {
-        for (uint i = at.lists.x; i < at.lists.y; ++i) sum = sum + local_light(i, s, base, metallic, at.p);
+        for (uint i = at.lists.x; i < at.lists.y; ++i) sum = sum + local_light(i, s, base, metallic, at.p, at.plane);
     }
     return sum;
 }

@@ -33,13 +33,14 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     bool parallel = m.clip.z == 0.0;
     // Slope of the surface in map space: how much z grows a metre along x and y.
     float facing = parallel ? n.z : -quotient(dot3(n, q), w);
-    if (!(facing > 0.0)) return o;
-    EXACT vec2 slope = n.xy * -quotient(1.0, facing);
+    // A surface that is lit by its shading normal alone, and turns its back to the light itself, is met as it comes.
+    EXACT vec2 slope = facing > 0.0 ? n.xy * -quotient(1.0, facing) : vec2(0.0);
     EXACT float slope2 = slope.x * slope.x;
     slope2 = slope2 + slope.y * slope.y;
     EXACT float texel = quotient(w, m.scale);
-    EXACT float offset = root(quotient(slope2, 1.0 + slope2)) * PELLUCID_SHADOW_OFFSET;
-    offset = offset * texel;
+    // Facets lie under the smooth surface that the normal is of.
+    EXACT float offset = 1.0 + root(quotient(slope2, 1.0 + slope2));
+    offset = offset * (texel * PELLUCID_SHADOW_OFFSET);
     q = q + n * offset;
     w = q.z * m.clip.z;
     w = w + m.clip.w;
@@ -61,11 +62,11 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     depth = depth * inverse;
     EXACT float per_metre = m.clip.x - depth * m.clip.z;
     per_metre = per_metre * inverse;
-    // Rasterisers move corners to a grid of 1/256 texel; a stored normal is up to 4.4e-5 off, which turns the plane by
-    // that times 1 + slope²; and single precision.
+    // Rasterisers move corners to a grid of 1/256 texel; a plane through neighbouring pixels is some 1e-4 off, and its
+    // slope by that times 1 + slope²; and single precision.
     EXACT float steep = abs(slope.x) + abs(slope.y);
     EXACT float bias = steep * 0.0078125;
-    bias = bias + slope2 * 0.000244140625;
+    bias = bias + slope2 * 0.0009765625;
     bias = bias * texel;
     EXACT float error = m.error + w * m.spread;
     bias = bias + (1.0 + steep) * error;
@@ -110,8 +111,8 @@ float map_light(uint layer, MapPoint o) {
     return sum > 8.99999 ? 1.0 : sum * (1.0 / 9.0);
 }
 
-// The share, in [0,1], of light `i` that gets to the point `p` (view space) of a surface with this normal, which faces the
-// light; `from_light`: p - the light's position, where it has one.  1 outside of what its maps show.
+// The share, in [0,1], of light `i` that gets to the point `p` (view space) of a surface whose plane has this normal;
+// `from_light`: p - the light's position, where it has one.  1 outside of what its maps show.
 float shadow_light(uint i, vec3 p, vec3 normal, vec3 from_light) {
     uint count = shadows[i].count, rest = shadows[i].rest, at = i;
     if (count == 0u) return 1.0;

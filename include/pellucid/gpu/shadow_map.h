@@ -16,7 +16,7 @@
 // along its normal, and one for rounding to the grid.
 #define PELLUCID_SHADOW_MARGIN 4
 #define PELLUCID_SHADOW_FADE 16      // a cascade gives way to the next within this part of its side
-#define PELLUCID_SHADOW_OFFSET 0.5   // [texel] that a point moves along its normal where light grazes it
+#define PELLUCID_SHADOW_OFFSET 0.5   // [texel] that a point moves along its normal, and again times the sine of its angle
 #define PELLUCID_SHADOW_MAX_SLOPE 64.0  // of the receiver's plane against the map's: beyond 89.1° it is taken as that
 
 PELLUCID_GPU_BEGIN
