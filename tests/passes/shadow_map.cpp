@@ -13,7 +13,6 @@ namespace {
 constexpr double reach = 3;  // [texel]
 
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
-double smallest(const std::vector<double>& values) { return *std::min_element(values.begin(), values.end()); }
 
 /// A floor that a sun shines on from the left, and a sheet over the left half of it.
 struct EdgeCase {
@@ -57,9 +56,8 @@ double edge_error(typename B::Device& device, bool along_x) {
     const auto lit = [&](glm::ivec2 texel) {
         const auto stored = depths.at<float>(static_cast<std::uint32_t>(texel.x), static_cast<std::uint32_t>(texel.y));
         // Halfway between the floor below the texel and the sheet 1 m above it.
-        const double per_metre = clip.zz, s = 1 / map.half_height * maps / 2;
+        const double per_metre = clip.zz;
         const glm::dvec2 away = glm::dvec2(texel) + 0.5 - *view.texel(glm::dvec3(0));
-        (void)s;
         const glm::dvec3 n = glm::transpose(glm::dmat3(map.world_from_view)) * glm::dvec3(0, 1, 0);
         const double metres = 2 * map.half_height / maps;
         const double floor_z = on_floor.z - (n.x * away.x - n.y * away.y) * metres / n.z;

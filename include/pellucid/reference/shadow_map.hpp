@@ -56,7 +56,7 @@ namespace detail {
 
 }  // namespace detail
 
-std::optional<glm::dvec2> ShadowMapView::texel(glm::dvec3 p) const noexcept {
+inline std::optional<glm::dvec2> ShadowMapView::texel(glm::dvec3 p) const noexcept {
     const ClipFromView clip = clip_from_view(camera, {size, size});
     const glm::dvec3 q = detail::turned(camera, p - glm::dvec3(camera.world_from_view[3]));
     const double w = q.z * clip.wz + clip.ww;
