@@ -31,26 +31,20 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     w = w + m.clip.w;
     if (!(w > 0.0)) return o;
     bool parallel = m.clip.z == 0.0;
-    // Slope of the surface in map space: how much z grows a metre along x and y.
+    // Slope of the surface in map space: how much z grows a metre along x and y.  A surface that is lit by its shading
+    // normal alone, and turns its back to the light itself, is met as it comes.
     float facing = parallel ? n.z : -quotient(dot3(n, q), w);
-    // A surface that is lit by its shading normal alone, and turns its back to the light itself, is met as it comes.
-    EXACT vec2 slope = facing > 0.0 ? n.xy * -quotient(1.0, facing) : vec2(0.0);
+    EXACT float over = facing > 0.0 ? quotient(1.0, facing) : 0.0;
+    EXACT vec2 slope = n.xy * -over;
     EXACT float slope2 = slope.x * slope.x;
     slope2 = slope2 + slope.y * slope.y;
-    EXACT float texel = quotient(w, m.scale);
-    // Facets lie under the smooth surface that the normal is of.
-    EXACT float offset = 1.0 + root(quotient(slope2, 1.0 + slope2));
-    offset = offset * (texel * PELLUCID_SHADOW_OFFSET);
-    q = q + n * offset;
-    w = q.z * m.clip.z;
-    w = w + m.clip.w;
-    if (!(w > 0.0)) return o;
     const float steepest = PELLUCID_SHADOW_MAX_SLOPE;
     if (slope2 > steepest * steepest) {
         EXACT float shorter = inversesqrt(slope2) * steepest;
         slope = slope * shorter;
         slope2 = steepest * steepest;
     }
+    EXACT float texel = quotient(w, m.scale);
     EXACT float inverse = quotient(1.0, w);
     EXACT vec2 at = vec2(q.x, -q.y) * (m.scale * inverse);
     at = at + m.half_side;
@@ -62,10 +56,12 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     depth = depth * inverse;
     EXACT float per_metre = m.clip.x - depth * m.clip.z;
     per_metre = per_metre * inverse;
-    // Rasterisers move corners to a grid of 1/256 texel; a plane through neighbouring pixels is some 1e-4 off, and its
+    // Facets lie beside each other, not in one plane: the plane is moved along its normal, which does not move the
+    // shadow's edge.  Rasterisers move corners to a grid of 1/256 texel; a plane through neighbouring pixels is some 1e-4 off, and its
     // slope by that times 1 + slope²; and single precision.
     EXACT float steep = abs(slope.x) + abs(slope.y);
-    EXACT float bias = steep * 0.0078125;
+    EXACT float bias = clamp(over, 1.0, steepest) * PELLUCID_SHADOW_OFFSET;
+    bias = bias + steep * 0.0078125;
     bias = bias + slope2 * 0.0009765625;
     bias = bias * texel;
     EXACT float error = m.error + w * m.spread;

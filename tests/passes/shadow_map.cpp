@@ -9,7 +9,8 @@ using test::add;
 
 namespace {
 
-/// What a filter reads beyond a point, a texel that rasterising rounds to, and half of one that the point moves.
+/// One and a half that a box of three reaches, half a texel's diagonal that rasterising rounds to, and what the receiver's
+/// plane is moved by.
 constexpr double reach = 3;  // [texel]
 
 double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }

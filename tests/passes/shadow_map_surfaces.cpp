@@ -99,8 +99,16 @@ TEMPLATE_LIST_TEST_CASE("a normal map turns light, not the plane that shadows fa
                 settings.shading = stage;
                 settings.gbuffer = layout;
                 const auto pair = test::shadow_pair<TestType>(*device, scene, camera, settings);
+                // A pixel that has no neighbour in its row, or none in its column, has no plane but its normal's.
+                const auto seen = [&](std::uint32_t x, std::uint32_t y) {
+                    return x < 96 && y < 96 && pair.without.hdr.texel(x, y)[1] > 0;
+                };
+                const std::size_t wrong = darker(pair, [&](std::uint32_t x, std::uint32_t y) {
+                    return (seen(x + 1, y) || seen(x - 1, y)) && (seen(x, y + 1) || seen(x, y - 1));
+                });
                 INFO("a sun of height " << height << ", " << name(stage) << ", " << name(layout));
-                CHECK(pair.changed() == 0);
+                CHECK(wrong == 0);
+                CHECK(pair.changed() <= 2);
             }
     }
 }
@@ -120,7 +128,7 @@ TEMPLATE_LIST_TEST_CASE("a masked surface casts its holes", "[gpu]", test::Backe
     constexpr std::uint32_t pixels = 96;
     const glm::dvec3 middle(2.2, 0, 0);
     const auto pair = test::shadow_pair<TestType>(*device, scene, test::plan_camera(middle, 1.1),
-                                                  test::shadow_settings(512, pixels));
+                                                  test::shadow_settings(1024, pixels));
     const std::vector<double> share = pair.share();
     std::size_t dark = 0, lit = 0, wrong = 0;
     for (std::uint32_t y = 0; y < pixels; ++y)

@@ -12,11 +12,10 @@
 #define PELLUCID_SHADOW_FACES 6
 #define PELLUCID_SHADOW_MIN_SIZE 16  // [texel] a side of a map
 
-// Texels between what a map must show and its border: two that the filter reads beyond a point, one that the point moves
-// along its normal, and one for rounding to the grid.
-#define PELLUCID_SHADOW_MARGIN 4
+// Texels between what a map must show and its border: two that the filter reads beyond a point, and some for rounding.
+#define PELLUCID_SHADOW_MARGIN 3
 #define PELLUCID_SHADOW_FADE 16      // a cascade gives way to the next within this part of its side
-#define PELLUCID_SHADOW_OFFSET 0.5   // [texel] that a point moves along its normal, and again times the sine of its angle
+#define PELLUCID_SHADOW_OFFSET 0.5   // [texel] that a receiver's plane is moved along its normal
 #define PELLUCID_SHADOW_MAX_SLOPE 64.0  // of the receiver's plane against the map's: beyond 89.1° it is taken as that
 
 PELLUCID_GPU_BEGIN

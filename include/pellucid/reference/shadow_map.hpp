@@ -67,21 +67,19 @@ inline std::optional<glm::dvec2> ShadowMapView::texel(glm::dvec3 p) const noexce
 std::optional<double> filtered_light(const ShadowMapView& map, glm::dvec3 p, glm::dvec3 normal) {
     const ClipFromView clip = clip_from_view(map.camera, {map.size, map.size});
     const glm::dvec3 n = detail::turned(map.camera, normal);
-    glm::dvec3 q = detail::turned(map.camera, p - glm::dvec3(map.camera.world_from_view[3]));
-    const auto distance = [&] { return q.z * clip.wz + clip.ww; };
-    if (!(distance() > 0)) return std::nullopt;
-    // z = f(x, y) on the plane; rays of a perspective map spread, which tilts it in the map's eyes.
-    const double facing = clip.wz == 0 ? n.z : -glm::dot(n, q) / distance();
-    glm::dvec2 slope = facing > 0 ? glm::dvec2(-n.x / facing, -n.y / facing) : glm::dvec2(0);
-    const double steep = glm::length(slope), texel = distance() / (0.5 * map.size * clip.sx);
-    q += n * (texel * PELLUCID_SHADOW_OFFSET * (1 + steep / std::sqrt(1 + steep * steep)));
-    const double w = distance();
+    const glm::dvec3 q = detail::turned(map.camera, p - glm::dvec3(map.camera.world_from_view[3]));
+    const double w = q.z * clip.wz + clip.ww, texel = w / (0.5 * map.size * clip.sx);
     if (!(w > 0)) return std::nullopt;
-    if (steep > PELLUCID_SHADOW_MAX_SLOPE) slope *= PELLUCID_SHADOW_MAX_SLOPE / steep;
+    // z = f(x, y) on the plane; rays of a perspective map spread, which tilts it in the map's eyes.
+    const double facing = clip.wz == 0 ? n.z : -glm::dot(n, q) / w, over = facing > 0 ? 1 / facing : 0;
+    glm::dvec2 slope(-n.x * over, -n.y * over);
+    if (const double steep = glm::length(slope); steep > PELLUCID_SHADOW_MAX_SLOPE)
+        slope *= PELLUCID_SHADOW_MAX_SLOPE / steep;
     const glm::dvec2 at = 0.5 * map.size * (glm::dvec2(q.x * clip.sx, -q.y * clip.sy) / w + 1.0);
     const double depth = (q.z * clip.zz + clip.zw) / w;
     const double per_metre = (clip.zz - depth * clip.wz) / w;
-    const double bias = texel * ((std::abs(slope.x) + std::abs(slope.y)) / 128 + glm::dot(slope, slope) / 1024);
+    const double bias = texel * (PELLUCID_SHADOW_OFFSET * std::clamp(over, 1.0, PELLUCID_SHADOW_MAX_SLOPE) +
+                                 (std::abs(slope.x) + std::abs(slope.y)) / 128 + glm::dot(slope, slope) / 1024);
     const glm::dvec2 corner = glm::floor(at - 0.5), fraction = at - 0.5 - corner;
     if (corner.x < 1 || corner.y < 1 || corner.x > map.size - 3.0 || corner.y > map.size - 3.0) return std::nullopt;
     const double weights[2][4] = {{1 - fraction.x, 1, 1, fraction.x}, {1 - fraction.y, 1, 1, fraction.y}};
