@@ -117,7 +117,7 @@ TEMPLATE_LIST_TEST_CASE("a masked surface casts its holes", "[gpu]", test::Backe
     const auto device = test::make_device<TestType>();
     if (!device) return;
     Scene scene;
-    test::add_floor(scene, 3);
+    test::add_floor(scene, 4);
     scene.images.push_back({holes(), "holes"});
     scene.textures.push_back({.image = 0, .sampler = {.min = TextureFilter::nearest, .mag = TextureFilter::nearest, .mipmapped = false}});
     Material fence = test::matte({0.5f, 0.5f, 0.5f});
