@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a frame takes with shadow maps against the same frame without, and how far it is from exact hard shadows (rays in
-// double), by the size of a map.
+// What a frame takes with shadow maps against the same frame without, and how far it is from exact hard shadows (rays
+// in double), by the size of a map.
 //
 //     shadow_map [--backend vulkan|opengl|both] [--device N|name] [--size WxH] [--rounds N]
 //                [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
@@ -56,11 +56,10 @@ struct Measure {
                                     .intensity = 3,
                                     .direction = glm::normalize(glm::dvec3(-0.5, -1.0, -0.6))}};
         for (Case& c : cases) {
-            PELLUCID_TRY(c.exact, reference::render(c.content, c.content.cameras.front(),
-                                                    {.size = settings.size,
-                                                     .lights = c.content.lights,
-                                                     .shadows = true,
-                                                     .stability = true}));
+            PELLUCID_TRY(c.exact,
+                         reference::render(
+                             c.content, c.content.cameras.front(),
+                             {.size = settings.size, .lights = c.content.lights, .shadows = true, .stability = true}));
             double without = 0;
             for (const std::uint32_t size : {0u, 256u, 512u, 1024u, 2048u}) {
                 if (settings.quick && size > 256) break;
@@ -85,7 +84,7 @@ struct Measure {
 
     template <rhi::Backend B>
     static Result<SpeedErrorRow> judge_and_time(rhi::DeviceFor<B>& device, const PassSettings& settings, const Case& c,
-                                         std::uint32_t size) {
+                                                std::uint32_t size) {
         RenderSettings how{.size = settings.size,
                            .transparency = Transparency::sorted,
                            .background = {0, 0, 0},
@@ -139,4 +138,6 @@ struct Measure {
 
 }  // namespace
 
-int main(int argc, char** argv) { return run_pass_program("shadow_map", argc, argv, Measure{}); }
+int main(int argc, char** argv) {
+    return run_pass_program("shadow_map", argc, argv, Measure{});
+}

@@ -201,8 +201,7 @@ std::string check_reference(const CLI::App& app, const Options& o) {
                name(o.settings.transparency);
     std::vector<const char*> of_devices{"--backend",  "--device",         "--gbuffer",  "--lighting",
                                         "--shading",  "--exact",          "--validate", "--aov",
-                                        "--gl-spirv", "--pipeline-cache", "--frames",
-                                        "--shadow-size"};
+                                        "--gl-spirv", "--pipeline-cache", "--frames",   "--shadow-size"};
     for (const Heeded& option : heeded) of_devices.push_back(option.flag);
     for (const char* flag : of_devices)
         if (app[flag]->count() > 0)

@@ -103,8 +103,7 @@ ordered_json passes_of(const Report& report) {
 }
 
 ordered_json settings_of(const Report& report, const RenderSettings& s) {
-    ordered_json json{
-        {"transparency", report.translucency.method},
+    ordered_json json{{"transparency", report.translucency.method},
                       {"shadows", name(s.shadows)},
                       {"brdf", name(s.brdf)},
                       {"tonemap", name(s.tonemap)}};
@@ -146,12 +145,9 @@ ordered_json stats_of(const Options& options, const Report& report) {
     }
     if (report.device && s.shadows != Shadows::none) {
         const RenderStats& r = report.stats;
-        json["shadows"] = {{"method", name(r.shadows)},
-                           {"why", r.shadows_why.empty() ? "asked for" : r.shadows_why},
-                           {"size", s.shadow_size},
-                           {"lights", r.shadow_lights},
-                           {"maps", r.shadow_maps},
-                           {"drawn", r.shadows_drawn}};
+        json["shadows"] = {{"method", name(r.shadows)}, {"why", r.shadows_why.empty() ? "asked for" : r.shadows_why},
+                           {"size", s.shadow_size},     {"lights", r.shadow_lights},
+                           {"maps", r.shadow_maps},     {"drawn", r.shadows_drawn}};
     }
     if (report.comparison) json["comparison"] = ordered_json::parse(report.comparison->json);
     json["warnings"] = report.stats.warnings;

@@ -25,7 +25,8 @@ struct MapPoint {
 MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     MapPoint o;
     o.inside = -1.0;
-    EXACT vec3 q = vec3(dot3(m.axis_x, p), dot3(m.axis_y, p), dot3(m.axis_z, p)) + vec3(m.offset_x, m.offset_y, m.offset_z);
+    EXACT vec3 q = vec3(dot3(m.axis_x, p), dot3(m.axis_y, p), dot3(m.axis_z, p));
+    q = q + vec3(m.offset_x, m.offset_y, m.offset_z);
     EXACT vec3 n = vec3(dot3(m.axis_x, normal), dot3(m.axis_y, normal), dot3(m.axis_z, normal));
     EXACT float w = q.z * m.clip.z;
     w = w + m.clip.w;
@@ -34,7 +35,7 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     // Slope of the surface in map space: how much z grows a metre along x and y.  A surface that is lit by its shading
     // normal alone, and turns its back to the light itself, is met as it comes.
     float facing = parallel ? n.z : -quotient(dot3(n, q), w);
-    EXACT float over = facing > 0.0 ? quotient(1.0, facing) : 0.0;
+    EXACT float over = facing > 1e-6 ? quotient(1.0, facing) : 0.0;
     EXACT vec2 slope = n.xy * -over;
     EXACT float slope2 = slope.x * slope.x;
     slope2 = slope2 + slope.y * slope.y;
@@ -56,9 +57,9 @@ MapPoint map_point(ShadowRecord m, vec3 p, vec3 normal) {
     depth = depth * inverse;
     EXACT float per_metre = m.clip.x - depth * m.clip.z;
     per_metre = per_metre * inverse;
-    // Facets lie beside each other, not in one plane: the plane is moved along its normal, which does not move the
-    // shadow's edge.  Rasterisers move corners to a grid of 1/256 texel; a plane through neighbouring pixels is some 1e-4 off, and its
-    // slope by that times 1 + slope²; and single precision.
+    // Facets lie beside each other, not in one plane: the plane is moved along its normal, the point is not, nor the
+    // shadow's edge.  Rasterisers move corners to a grid of 1/256 texel; a plane through neighbouring pixels is some 1e-4
+    // off, and its slope by that times 1 + slope²; and single precision.
     EXACT float steep = abs(slope.x) + abs(slope.y);
     EXACT float bias = clamp(over, 1.0, steepest) * PELLUCID_SHADOW_OFFSET;
     bias = bias + steep * 0.0078125;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps against closed forms: the filter at a straight edge, planes that must not shadow themselves, shadows where
-// they belong and nowhere else.
+// Shadow maps against closed forms: the filter at a straight edge, planes that must not shadow themselves, shadows
+// where they belong and nowhere else.
 #include <cstdio>
 #include "support/shadow_cases.hpp"
 
@@ -9,11 +9,13 @@ using test::add;
 
 namespace {
 
-/// One and a half that a box of three reaches, half a texel's diagonal that rasterising rounds to, and what the receiver's
-/// plane is moved by.
+/// One and a half that a box of three reaches, half a texel's diagonal that rasterising rounds to, and what the
+/// receiver's plane is moved by.
 constexpr double reach = 3;  // [texel]
 
-double largest(const std::vector<double>& values) { return *std::max_element(values.begin(), values.end()); }
+double largest(const std::vector<double>& values) {
+    return *std::max_element(values.begin(), values.end());
+}
 
 /// A floor that a sun shines on from the left, and a sheet over the left half of it.
 struct EdgeCase {
@@ -94,7 +96,8 @@ TEMPLATE_LIST_TEST_CASE("a straight edge is a ramp of three texels, within 1/512
     if (!device) return;
     for (const bool along_x : {true, false}) {
         const double worst = edge_error<TestType>(*device, along_x);
-        std::printf("%s: the filter is up to %.5f off the closed form (1/512 = %.5f)\n", TestType::name, worst, 1. / 512);
+        std::printf("%s: the filter is up to %.5f off the closed form (1/512 = %.5f)\n", TestType::name, worst,
+                    1. / 512);
         CHECK(worst <= 1.0 / 512);
     }
 }
@@ -134,7 +137,8 @@ TEMPLATE_LIST_TEST_CASE("a plane at 0 to 89 degrees does not shadow itself", "[g
                 wide.lights = {light};
                 const auto pair = test::shadow_pair<TestType>(*device, wide, test::plan_camera({0, 0, 0}, half),
                                                               test::shadow_settings(maps, 256));
-                INFO((light.kind == LightKind::point ? "point" : "spot") << ", maps of " << maps << ", " << half << " m");
+                INFO((light.kind == LightKind::point ? "point" : "spot")
+                     << ", maps of " << maps << ", " << half << " m");
                 CHECK(pair.changed() == 0);
             }
 }
@@ -220,8 +224,8 @@ TEMPLATE_LIST_TEST_CASE("outside of a map, behind a spot and on its border there
           test::torch({0, 2, 0}, {0.1, 0, 0}, widest_shadow_spot), test::torch({0, 0.5, 0}, {0.5, 0, 0}, 1.57),
           test::torch({0, 1, 0}, {0.3, 0, 0}, 0.02)}) {
         scene.lights = {light};
-        const auto pair = test::shadow_pair<TestType>(*device, scene, test::plan_camera({0, 0, 0}, 5),
-                                                      test::shadow_settings(32, 64));
+        const auto pair =
+            test::shadow_pair<TestType>(*device, scene, test::plan_camera({0, 0, 0}, 5), test::shadow_settings(32, 64));
         for (const float v : pair.with.hdr.data) REQUIRE(std::isfinite(v));
         const std::vector<double> share = pair.share();
         CHECK(largest(share) <= 1);
@@ -288,7 +292,8 @@ TEMPLATE_LIST_TEST_CASE("cascades: a plane to the horizon has no seam, and a sha
         std::size_t in_row = 0;
         for (std::uint32_t x = 0; x < settings.size.width; ++x) {
             const glm::dvec2 ndc = reference::ndc_from_pixel<double>(x, y, settings.size);
-            const glm::dvec3 way = glm::dmat3(camera.world_from_view) * glm::dvec3(ndc.x / clip.sx, ndc.y / clip.sy, -1);
+            const glm::dvec3 way =
+                glm::dmat3(camera.world_from_view) * glm::dvec3(ndc.x / clip.sx, ndc.y / clip.sy, -1);
             if (way.y >= -0.02) continue;  // a pixel there is longer than any texel
             const glm::dvec3 eye(camera.world_from_view[3]), p = eye + way * (eye.y / -way.y);
             const double across = p.x - 4 * 0.4 + 1;  // from the middle of the roof's shadow
@@ -322,8 +327,7 @@ TEMPLATE_LIST_TEST_CASE("faces of a cube of maps: no seam on a ball around the l
     for (const glm::dvec3 corner : {glm::dvec3(1, 1, 1), glm::dvec3(-1, 1, -1), glm::dvec3(1, -1, -1)}) {
         Camera camera{.vertical_fov = 1.7, .near = 0.1, .world_from_view = look_at(-0.5 * corner, corner)};
         for (const std::uint32_t maps : {64u, 512u}) {
-            const auto pair =
-                test::shadow_pair<TestType>(*device, scene, camera, test::shadow_settings(maps, 128));
+            const auto pair = test::shadow_pair<TestType>(*device, scene, camera, test::shadow_settings(maps, 128));
             INFO("towards (" << corner.x << ", " << corner.y << ", " << corner.z << "), maps of " << maps);
             CHECK(pair.changed() == 0);
         }
@@ -344,7 +348,8 @@ TEMPLATE_LIST_TEST_CASE("faces of a cube of maps: no seam on a ball around the l
                     way = glm::normalize(glm::dmat3(camera.world_from_view) *
                                          glm::dvec3(ndc.x / clip.sx, ndc.y / clip.sy, -1));
                 // Where the ball is met, and how far off the light's way to the sheet's middle that is.
-                const double along = glm::dot(way, eye), far = -along + std::sqrt(along * along - glm::dot(eye, eye) + 4);
+                const double along = glm::dot(way, eye),
+                             far = -along + std::sqrt(along * along - glm::dot(eye, eye) + 4);
                 const glm::dvec3 from = glm::normalize(eye + far * way - scene.lights[0].position);
                 const double off = std::acos(std::min(1.0, glm::dot(from, glm::normalize(corner))));
                 // The sheet hides itself and what is right behind it from the eye.

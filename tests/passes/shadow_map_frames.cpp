@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps from frame to frame and from setting to setting: the same bits whatever finds the lights and whichever API
-// draws, maps drawn again only where they changed, and what is refused.
+// Shadow maps from frame to frame and from setting to setting: the same bits whatever finds the lights and whichever
+// API draws, maps drawn again only where they changed, and what is refused.
 #include <pellucid/rhi/null.hpp>
 #include "support/shadow_cases.hpp"
 
@@ -42,8 +42,8 @@ TEMPLATE_LIST_TEST_CASE("lists of lights give the loop's bits with shadows too, 
         const auto loop = shot(LightAssignment::loop);
         RenderSettings plain = settings_of(LightAssignment::loop, transparency);
         plain.shadows = Shadows::none;
-        CHECK(test::different_pixels(
-                  loop.hdr, test::shoot<TestType>(*device, scene, test::varied_camera(), plain).hdr) > 200);
+        CHECK(test::different_pixels(loop.hdr,
+                                     test::shoot<TestType>(*device, scene, test::varied_camera(), plain).hdr) > 200);
         for (const LightAssignment lighting : {LightAssignment::tiled, LightAssignment::clustered}) {
             const auto lists = shot(lighting);
             INFO(name(transparency) << ", " << name(lighting));
@@ -90,8 +90,8 @@ TEMPLATE_LIST_TEST_CASE("where nothing casts, the picture is that without shadow
     test::add_sheet(scene, {0, 1, 0}, 1, glass);
     test::add_sheet(scene, {0, 0, 0}, 2, glass);
     scene.lights = {test::sun({0.3, -1, 0}), test::bulb({1, 3, 0})};
-    const auto pair = test::shadow_pair<TestType>(*device, scene, test::plan_camera({0, 0, 0}, 2),
-                                                  test::shadow_settings(64));
+    const auto pair =
+        test::shadow_pair<TestType>(*device, scene, test::plan_camera({0, 0, 0}, 2), test::shadow_settings(64));
     CHECK(pair.changed() == 0);
     const RenderStats stats = pair.with.renderer->stats();
     CHECK(stats.shadows == Shadows::none);

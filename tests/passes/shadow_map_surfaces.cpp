@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What shadows fall on, and what casts them: facets with smooth normals, normal maps, holes, translucent and unlit surfaces.
+// What shadows fall on, and what casts them: facets with smooth normals, normal maps, holes, translucent and unlit
+// surfaces.
 #include <cstdio>
 #include "support/shadow_cases.hpp"
 
@@ -60,17 +61,17 @@ TEMPLATE_LIST_TEST_CASE("a ball of flat facets with smooth normals does not shad
                             .near = 1,
                             .far = 20,
                             .world_from_view = test::at(0, 0, 10)};
-        for (const Light& light : {test::sun(-to_light), test::bulb(4.0 * to_light), test::torch(4.0 * to_light, {0, 0, 0}, 0.4)}) {
+        for (const Light& light :
+             {test::sun(-to_light), test::bulb(4.0 * to_light), test::torch(4.0 * to_light, {0, 0, 0}, 0.4)}) {
             scene.lights = {light};
-            const auto pair =
-                test::shadow_pair<TestType>(*device, scene, camera, test::shadow_settings(maps, 128));
+            const auto pair = test::shadow_pair<TestType>(*device, scene, camera, test::shadow_settings(maps, 128));
             const std::size_t wrong = darker(pair, [&](std::uint32_t x, std::uint32_t y) {
                 const glm::dvec2 at = (glm::dvec2(x, y) + 0.5) / 64.0 - 1.0;
                 const glm::dvec2 p(1.1 * at.x, -1.1 * at.y);
                 if (glm::length(p) > 0.97) return false;
                 const glm::dvec3 n(p, std::sqrt(1 - glm::dot(p, p)));
-                const glm::dvec3 l = light.kind == LightKind::directional ? to_light
-                                                                          : glm::normalize(4.0 * to_light - n);
+                const glm::dvec3 l =
+                    light.kind == LightKind::directional ? to_light : glm::normalize(4.0 * to_light - n);
                 return glm::dot(n, l) > 0.17;  // up to 80°; a facet leans by 4° more
             });
             INFO("light " << static_cast<int>(light.kind) << ", maps of " << maps);
@@ -119,7 +120,8 @@ TEMPLATE_LIST_TEST_CASE("a masked surface casts its holes", "[gpu]", test::Backe
     Scene scene;
     test::add_floor(scene, 4);
     scene.images.push_back({holes(), "holes"});
-    scene.textures.push_back({.image = 0, .sampler = {.min = TextureFilter::nearest, .mag = TextureFilter::nearest, .mipmapped = false}});
+    scene.textures.push_back(
+        {.image = 0, .sampler = {.min = TextureFilter::nearest, .mag = TextureFilter::nearest, .mipmapped = false}});
     Material fence = test::matte({0.5f, 0.5f, 0.5f});
     fence.alpha_mode = AlphaMode::mask;
     fence.base_color_texture.texture = 0;
@@ -187,8 +189,8 @@ TEMPLATE_LIST_TEST_CASE("shadows fall on translucent surfaces, which cast none",
     Scene under = scene;
     under.instances.erase(under.instances.begin() + 1);
     test::add_floor(under, 3);
-    const auto pair = test::shadow_pair<TestType>(*device, under, test::plan_camera({0, 0, 0}, 1.8),
-                                                  test::shadow_settings(128));
+    const auto pair =
+        test::shadow_pair<TestType>(*device, under, test::plan_camera({0, 0, 0}, 1.8), test::shadow_settings(128));
     REQUIRE(pair.with.renderer->stats().shadows == Shadows::map);
     CHECK(pair.changed() == 0);
 }

@@ -37,7 +37,8 @@ TEST_CASE("the filter at a straight edge is its closed form at 64 places in a te
         for (int i = -3 * 64; i <= 3 * 64; ++i) {
             const double t = i / 64.0;  // [m], [texel] from the edge
             for (const double other : {0.0, 0.3, -2.71}) {
-                const auto light = filtered_light(map, along_x ? glm::dvec3(t, 0, other) : glm::dvec3(other, 0, t), {0, 1, 0});
+                const auto light =
+                    filtered_light(map, along_x ? glm::dvec3(t, 0, other) : glm::dvec3(other, 0, t), {0, 1, 0});
                 REQUIRE(light);
                 CHECK(*light == Approx(edge_light(t)).margin(1e-12));
             }
@@ -124,7 +125,8 @@ TEST_CASE("rays: no ray slips into a closed surface through an edge or a corner,
     Scene scene;
     test::add_floor(scene, 4);
     add(scene, make_icosphere(1, 4), test::matte({0.5f, 0.5f, 0.5f}), test::at(0, 1.5, 0));
-    // The floor's pixels are seen from below the ball: all those that the ball hides are dark, whatever edge a ray meets.
+    // The floor's pixels are seen from below the ball: all those that the ball hides are dark, whatever edge a ray
+    // meets.
     scene.lights = {test::sun({0, -1, 0})};
     const Camera camera{.projection = Projection::orthographic,
                         .half_width = 2,
@@ -156,14 +158,15 @@ TEST_CASE("rays: single-sided surfaces cast from their front, masked ones where 
         scene.images.push_back({Image8(2, 2, 4), "half"});
         scene.images[0].pixels.data = {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 0};
         scene.textures.push_back(
-            {.image = 0, .sampler = {.min = TextureFilter::nearest, .mag = TextureFilter::nearest, .mipmapped = false}});
+            {.image = 0,
+             .sampler = {.min = TextureFilter::nearest, .mag = TextureFilter::nearest, .mipmapped = false}});
         if (material.alpha_mode == AlphaMode::mask) material.base_color_texture.texture = 0;
         add(scene, test::quad(0.5f, 0.5f), material,
             test::at(0, 1, 0) * glm::rotate(glm::dmat4(1), turn * 0.5 * glm::pi<double>(), glm::dvec3(1, 0, 0)) *
                 test::scaled(mirror, 1, 1));
         const Light light = test::sun({1.2, -1, 0});
-        const Picture p = test::must(render(scene, test::plan_camera({1.2, 0, 0}, 0.5),
-                                            {.size = {32, 32}, .lights = {light}, .shadows = true}));
+        const Picture p = test::must(
+            render(scene, test::plan_camera({1.2, 0, 0}, 0.5), {.size = {32, 32}, .lights = {light}, .shadows = true}));
         std::size_t dark = 0;
         for (std::size_t i = 0; i < p.radiance.data.size(); i += 3) dark += p.radiance.data[i] == 0;
         return static_cast<double>(dark) / (32 * 32);

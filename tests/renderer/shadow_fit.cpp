@@ -66,8 +66,8 @@ TEST_CASE("cascades show all of the scene that is seen, with room for the filter
                     const auto at = reference::ShadowMapView{.camera = map, .size = size}.texel(p);
                     // Two texels that the filter reads.
                     const double room = std::min({at->x, at->y, size - at->x, size - at->y});
-                    const double z = (glm::transpose(glm::dmat3(map.world_from_view)) *
-                                      (p - glm::dvec3(map.world_from_view[3]))).z;
+                    const double z =
+                        (glm::transpose(glm::dmat3(map.world_from_view)) * (p - glm::dvec3(map.world_from_view[3]))).z;
                     shown = shown || (room > 2 && -z <= map.far);
                 }
                 CHECK(shown);

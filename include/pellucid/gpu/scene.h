@@ -34,7 +34,8 @@
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
 #define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
-#define PELLUCID_NEED_SHADOWS 65536u  // a light has a shadow map (gpu/shadow_map.h)
+// A light has a shadow map (gpu/shadow_map.h).
+#define PELLUCID_NEED_SHADOWS 65536u
 
 // Specialisation constant 1: the reflectance model.
 #define PELLUCID_BRDF_GLTF 0u

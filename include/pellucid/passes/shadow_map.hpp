@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// Draws what a light sees into one layer of an array of depth, as any other view of the scene is drawn: by a FrameParams
-/// and DrawRecords of its own.  Opaque instances need no fragment stage, masked ones one that knows their holes; each is
-/// culled as in the picture, so a single-sided surface casts only from its front.
+/// Draws what a light sees into one layer of an array of depth, as any other view of the scene is drawn: by a
+/// FrameParams and DrawRecords of its own.  Opaque instances need no fragment stage, masked ones one that knows their
+/// holes; each is culled as in the picture, so a single-sided surface casts only from its front.
 ///
 /// What is made of the maps is in shaders/common/shadow.glsl; which maps there are, in renderer/shadow_fit.hpp.
 #include <pellucid/gpu/shadow_map.h>
@@ -47,8 +47,8 @@ template <rhi::Backend B>
 Result<ShadowMapPass<B>> ShadowMapPass<B>::create(typename B::Device& device, const ShadowMapDesc& desc) {
     ShadowMapPass pass;
     // Nothing but alpha is looked up.
-    constexpr std::uint32_t of_alpha = PELLUCID_NEED_TEXTURES | PELLUCID_NEED_SECOND_UV | PELLUCID_NEED_VERTEX_COLORS |
-                                       PELLUCID_NEED_ALPHA_MASK;
+    constexpr std::uint32_t of_alpha =
+        PELLUCID_NEED_TEXTURES | PELLUCID_NEED_SECOND_UV | PELLUCID_NEED_VERTEX_COLORS | PELLUCID_NEED_ALPHA_MASK;
     const rhi::SpecConstant constants[] = {{0, desc.needs & of_alpha}};
     rhi::GraphicsPipelineDesc pipeline{.vertex = &shaders::scene_position_vert,
                                        .constants = constants,

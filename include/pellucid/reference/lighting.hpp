@@ -3,8 +3,8 @@
 /// \file
 /// Punctual lights as KHR_lights_punctual means them, and the radiance of a surface under a list of them, in double.
 ///
-/// No environment; shadows are for whoever calls to say.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
-/// light at normal incidence [lx] times its linear colour:
+/// No environment; shadows are for whoever calls to say.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with
+/// E the illuminance of a light at normal incidence [lx] times its linear colour:
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
 #include <cmath>

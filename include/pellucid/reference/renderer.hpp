@@ -16,9 +16,9 @@
 /// extrapolated on the triangle's plane.  Each texture keeps its own size and sampler, whatever a GPU merges.  Radiance
 /// has no upper limit here.
 ///
-/// With shadows, a light does not reach a point where a triangle of an opaque or masked material, with its front towards
-/// the light or double-sided, lies between them (masked ones where they are there, by level 0 of their texture); blended
-/// ones cast none.  A point's own triangle never shadows it.
+/// With shadows, a light does not reach a point where a triangle of an opaque or masked material, with its front
+/// towards the light or double-sided, lies between them (masked ones where they are there, by level 0 of their
+/// texture); blended ones cast none.  A point's own triangle never shadows it.
 ///
 /// Link `pellucid::reference` (it needs TBB).
 #include <cstdint>

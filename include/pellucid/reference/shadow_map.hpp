@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// What shadow maps are made of, in double: the filter of shaders/common/shadow.glsl, its closed form at a straight edge,
-/// and what cascades must hold.
+/// What shadow maps are made of, in double: the filter of shaders/common/shadow.glsl, its closed form at a straight
+/// edge, and what cascades must hold.
 ///
 /// A map is what a camera with reversed depth sees of what casts.  The filter is a box of 3×3 texels convolved with the
-/// bilinear kernel, so its weights along an axis are (1 - f, 1, 1, f)/3 of four texels, f being the fraction of the place
-/// less half a texel.  A texel lets light through where its depth is not in front of the receiver's plane at its middle.
+/// bilinear kernel, so its weights along an axis are (1 - f, 1, 1, f)/3 of four texels, f being the fraction of the
+/// place less half a texel.  A texel lets light through where its depth is not in front of the receiver's plane at its
+/// middle.
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -34,7 +35,9 @@ struct ShadowMapView {
 
 /// Light that a straight edge lets through whose texels are lit from `texels` before the point on, in [0,1]: a ramp of
 /// three texels.
-[[nodiscard]] inline double edge_light(double texels) noexcept { return std::clamp((texels + 1.5) / 3, 0.0, 1.0); }
+[[nodiscard]] inline double edge_light(double texels) noexcept {
+    return std::clamp((texels + 1.5) / 3, 0.0, 1.0);
+}
 
 /// Share of the light that gets to `p` [m, world] of a plane with this unit normal; nothing where the map does not show
 /// all that the filter reads.  The bias is the filter's own but for what stands for

@@ -224,8 +224,7 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
         });
         PELLUCID_OWN(out.shadow_sampler_, device, device.make_sampler(texel_sampler("scene.shadow_maps")));
         PELLUCID_CHECK(out.make_group(device, {}, {}, out.shadow_group_, out.shadow_binding_));
-        PELLUCID_CHECK(
-            out.make_group(device, out.shadows_->maps(), out.shadows_->records(), out.group_, out.binding_));
+        PELLUCID_CHECK(out.make_group(device, out.shadows_->maps(), out.shadows_->records(), out.group_, out.binding_));
     } else {
         PELLUCID_CHECK(out.make_group(device, {}, {}, out.group_, out.binding_));
     }

@@ -29,7 +29,8 @@ public:
     /// Once, after create: what casts, and the bounds of everything.
     void place(std::vector<ShadowCaster> casters, const WorldBox& all);
     /// Writes the records of this camera and draws the maps that changed.  `view(camera, size, instances)` gives a
-    /// `Result<SceneBinding>` of another view of those instances, records in their order.  Precondition: no pass is open.
+    /// `Result<SceneBinding>` of another view of those instances, records in their order.  Precondition: no pass is
+    /// open.
     template <class View>
     [[nodiscard]] Result<void> record(typename B::Commands& cmd, const ShadowMapPass<B>& pass, const Camera& camera,
                                       Extent2D picture, View&& view);
@@ -92,8 +93,8 @@ private:
               static_cast<float>(clip.ww)};
     r.scale = static_cast<float>(0.5 * size * clip.sx);
     r.half_side = 0.5f * static_cast<float>(size);
-    // A point is four roundings of its distance from the eye off (reference/gbuffer.hpp), its place in the map as many of
-    // the way between the eye and the map; depth of parallel rays is a share of the map's.
+    // A point is four roundings of its distance from the eye off (reference/gbuffer.hpp), its place in the map as many
+    // of the way between the eye and the map; depth of parallel rays is a share of the map's.
     const bool parallel = map.projection == Projection::orthographic;
     const double away = glm::length(glm::dvec3(m[3])) + (parallel ? map.far + 2 * map.half_height : 0);
     r.error = static_cast<float>(0x1p-21 * away);

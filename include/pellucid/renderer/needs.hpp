@@ -75,10 +75,9 @@ inline constexpr double widest_shadow_spot = 1.05;
     if (settings.shadows == Shadows::none) return {};
     const std::uint32_t side = settings.shadow_size;
     if (side < PELLUCID_SHADOW_MIN_SIZE || side > device.max_texture_size)
-        return Error{Errc::invalid_argument, "a shadow map's size is " + std::to_string(side) +
-                                                 "; each side must be " + std::to_string(PELLUCID_SHADOW_MIN_SIZE) +
-                                                 " to " + std::to_string(device.max_texture_size) + " texels on " +
-                                                 device.name};
+        return Error{Errc::invalid_argument, "a shadow map's size is " + std::to_string(side) + "; each side must be " +
+                                                 std::to_string(PELLUCID_SHADOW_MIN_SIZE) + " to " +
+                                                 std::to_string(device.max_texture_size) + " texels on " + device.name};
     const std::uint64_t bytes = std::uint64_t{4} * side * side * needs.shadow_maps;
     const std::string what = "the shadows of " + std::to_string(needs.shadow_lights) + " lights take " +
                              std::to_string(needs.shadow_maps) + " maps of " + std::to_string(side) + "x" +

@@ -30,12 +30,12 @@ struct RenderStats {
     std::uint64_t triangles = 0;           ///< of the scene's instances
     std::uint32_t lights = 0;
     LightAssignment lighting = LightAssignment::loop;
-    std::string lighting_why;           ///< where it is not the one that was asked for
+    std::string lighting_why;  ///< where it is not the one that was asked for
     Shadows shadows = Shadows::none;
-    std::string shadows_why;          ///< where they are not what was asked for
-    std::uint32_t shadow_lights = 0;  ///< with shadow maps
-    std::uint32_t shadow_maps = 0;    ///< that there is room for
-    std::uint32_t shadows_drawn = 0;  ///< maps that the last frame drew
+    std::string shadows_why;            ///< where they are not what was asked for
+    std::uint32_t shadow_lights = 0;    ///< with shadow maps
+    std::uint32_t shadow_maps = 0;      ///< that there is room for
+    std::uint32_t shadows_drawn = 0;    ///< maps that the last frame drew
     TranslucencyStats translucency;     ///< of the last frame
     std::vector<std::string> warnings;  ///< of the scene and of its upload
 };

@@ -118,7 +118,7 @@ struct RenderSettings {
     GBufferLayout gbuffer = GBufferLayout::compact;
     ShadingStage shading = ShadingStage::compute;           ///< where lighting runs
     LightAssignment lighting = LightAssignment::automatic;  ///< how lights find the pixels that they reach
-    Shadows shadows = Shadows::none;   ///< of lights with Light::shadows
+    Shadows shadows = Shadows::none;                        ///< of lights with Light::shadows
     std::uint32_t shadow_size = 1024;  ///< [texel] a side of each shadow map: 16 to the device's limit
     Brdf brdf = Brdf::gltf;
     ToneCurve tonemap = ToneCurve::neutral;

@@ -147,16 +147,18 @@ namespace detail {
             seen = {{0, 0, -camera.near - half}, std::sqrt(tangent * tangent + half * half)};
         }
         const bool last = seen.radius >= whole.radius;
-        if (last) seen = whole;
-        else seen.center = glm::dvec3(camera.world_from_view * glm::dvec4(seen.center, 1));
+        if (last)
+            seen = whole;
+        else
+            seen.center = glm::dvec3(camera.world_from_view * glm::dvec4(seen.center, 1));
         out.push_back(detail::sphere_map(axes, seen, scene, size));
         if (last || camera.projection == Projection::orthographic) break;
     }
     return out;
 }
 
-/// The one map of a spot (`faces` is 1), or the six of a light that shines everywhere.  What is nearer to the light than
-/// a thousandth of its distance to the scene's far end, or than 1 mm, casts no shadow.
+/// The one map of a spot (`faces` is 1), or the six of a light that shines everywhere.  What is nearer to the light
+/// than a thousandth of its distance to the scene's far end, or than 1 mm, casts no shadow.
 [[nodiscard]] inline ShadowCameras placed_maps(const Light& light, std::uint32_t faces, const ShadowScene& scene,
                                                std::span<const WorldBox> casters, std::uint32_t size) {
     const double wide = size / (size - 2.0 * PELLUCID_SHADOW_MARGIN);

@@ -34,21 +34,20 @@ namespace pellucid::reference::detail {
     const double nearest = 1e-12 * (1 + size);
     const double farthest = light.kind == LightKind::directional ? std::numeric_limits<double>::infinity()
                                                                  : glm::distance(light.position, position);
-    return prepared.casters.any(
-        position, to_light, nearest, farthest, [&](const TreeTriangle& t, const RayHit& hit) {
-            if (t.primitive == own) return false;
-            const Draw& draw = prepared.draws[t.draw];
-            const Material& material = draw.material->factors;
-            // The ray leaves the surface: what it meets from behind has its front towards the light.
-            const bool towards_light = hit.front == draw.placed.mirrored;
-            if (!material.double_sided && !towards_light) return false;
-            if (material.alpha_mode != AlphaMode::mask) return true;
-            const std::uint32_t* at = draw.corners(t.primitive);
-            const Attributes corners[3] = {vertex_attributes(*draw.mesh, draw.placed, at[0]),
-                                           vertex_attributes(*draw.mesh, draw.placed, at[1]),
-                                           vertex_attributes(*draw.mesh, draw.placed, at[2])};
-            return passes_mask(material, base_color(*draw.material, interpolated(corners, hit.weights), {}).a);
-        });
+    return prepared.casters.any(position, to_light, nearest, farthest, [&](const TreeTriangle& t, const RayHit& hit) {
+        if (t.primitive == own) return false;
+        const Draw& draw = prepared.draws[t.draw];
+        const Material& material = draw.material->factors;
+        // The ray leaves the surface: what it meets from behind has its front towards the light.
+        const bool towards_light = hit.front == draw.placed.mirrored;
+        if (!material.double_sided && !towards_light) return false;
+        if (material.alpha_mode != AlphaMode::mask) return true;
+        const std::uint32_t* at = draw.corners(t.primitive);
+        const Attributes corners[3] = {vertex_attributes(*draw.mesh, draw.placed, at[0]),
+                                       vertex_attributes(*draw.mesh, draw.placed, at[1]),
+                                       vertex_attributes(*draw.mesh, draw.placed, at[2])};
+        return passes_mask(material, base_color(*draw.material, interpolated(corners, hit.weights), {}).a);
+    });
 }
 
 }  // namespace pellucid::reference::detail

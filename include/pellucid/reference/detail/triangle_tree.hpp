@@ -3,10 +3,10 @@
 /// \file
 /// Triangles in a tree of boxes, for rays: which ones does a segment meet.
 ///
-/// Whether a ray passes inside of an edge is the sign of a triple product, which two triangles that share the edge compute
-/// with the same values and the opposite sign, so no ray slips between them (the idea of A. Kensler and P. Shirley,
-/// "Optimizing ray-triangle intersection via automated search", 2006, and of Woop et al., "Watertight ray/triangle
-/// intersection", 2013).
+/// Whether a ray passes inside of an edge is the sign of a triple product, which two triangles that share the edge
+/// compute with the same values and the opposite sign, so no ray slips between them (the idea of A. Kensler and P.
+/// Shirley, "Optimizing ray-triangle intersection via automated search", 2006, and of Woop et al., "Watertight
+/// ray/triangle intersection", 2013).
 #include <algorithm>
 #include <cstdint>
 #include <glm/common.hpp>
@@ -87,7 +87,8 @@ private:
         }
     };
 
-    static bool meets(const TreeTriangle& t, const glm::dvec3& origin, const glm::dvec3& direction, RayHit& hit) noexcept {
+    static bool meets(const TreeTriangle& t, const glm::dvec3& origin, const glm::dvec3& direction,
+                      RayHit& hit) noexcept {
         const glm::dvec3 a = t.corners[0] - origin, b = t.corners[1] - origin, c = t.corners[2] - origin;
         const double u = glm::dot(direction, glm::cross(c, b)), v = glm::dot(direction, glm::cross(a, c)),
                      w = glm::dot(direction, glm::cross(b, a));
@@ -95,8 +96,8 @@ private:
         const double sum = u + v + w;
         if (sum == 0) return false;  // seen edge-on
         hit.weights = glm::dvec3(u, v, w) / sum;
-        hit.distance =
-            glm::dot(hit.weights.x * a + hit.weights.y * b + hit.weights.z * c, direction) / glm::dot(direction, direction);
+        hit.distance = glm::dot(hit.weights.x * a + hit.weights.y * b + hit.weights.z * c, direction) /
+                       glm::dot(direction, direction);
         hit.front = sum > 0;
         return true;
     }
