@@ -54,7 +54,7 @@ expect(2 "--audit composites every fragment, so --min-transmittance ends no pixe
 # Shadows: a size that cannot be, and one that nothing heeds.
 expect(2 "--shadow-size goes with --shadows map" ${asked} --shadow-size 512)
 expect(2 "--shadow-size goes with --shadows map" ${asked} --shadows none --shadow-size 512)
-expect(2 "--shadows: raytraced not in" ${asked} --shadows raytraced)
+expect(2 "--shadows: Check raytraced value in" ${asked} --shadows raytraced)
 foreach(side 0 15 99999)
   expect(2 "a shadow map.s size is ${side}; each side must be 16 to [0-9]+ texels on" ${asked} --shadows map
     --shadow-size ${side})
