@@ -106,7 +106,7 @@ struct Measure {
             .stem = "lighting", .baseline = "floor", .error = "radiance, scaled by max(1, reference)"};
 
         std::vector<LitScene> scenes;
-        for (const std::uint32_t count : {1u, 2u, 3u, 4u, 16u, 64u, 256u})
+        for (const std::uint32_t count : {0u, 1u, 2u, 3u, 4u, 16u, 64u, 256u})
             if (!settings.quick || count == 4 || count == 16) scenes.push_back({LightKind::point, count});
         scenes.push_back({LightKind::directional, 16});
         std::vector<GpuScene<B>> uploaded;
@@ -168,7 +168,9 @@ struct Measure {
         raw.reserve(scenes.size() * std::size(raw_forms));
         for (const RawForm& form : raw_forms)
             for (const LitScene& lit : scenes) {
-                if (lit.kind != LightKind::point || (form.form + form.storage != 0 && lit.lights < 16)) continue;
+                if (lit.lights == 0 || lit.kind != LightKind::point ||
+                    (form.form + form.storage != 0 && lit.lights < 16))
+                    continue;
                 PELLUCID_TRY(auto made, RawLoop<B>::create(device, size, form, lit.content.lights, hdr));
                 raw.push_back(std::move(made));
                 const auto record = [&loop = raw.back()](rhi::CommandsFor<B>& cmd) { loop.record(cmd); };

@@ -43,6 +43,11 @@ void add_picture_options(CLI::App& app, Options& o, Texts& t) {
                                  {"clustered", LightAssignment::clustered}},
                                 "how lights find pixels: auto (by their number), loop (all at each), volumes (drawn), "
                                 "tiled or clustered (lists)");
+    add_choice<Shadows>(app, "--shadows", o.settings.shadows, {{"none", Shadows::none}, {"map", Shadows::map}},
+                        "none, or map (shadow maps; with --reference, and of what --compare reference draws: exact "
+                        "hard shadows)");
+    app.add_option("--shadow-size", o.settings.shadow_size, "texels a side of each shadow map (1024)")
+        ->option_text("N");
     add_choice<ShadingStage>(app, "--shading", o.settings.shading,
                              {{"compute", ShadingStage::compute}, {"fragment", ShadingStage::fragment}},
                              "where lighting runs: compute or fragment");
@@ -207,7 +212,7 @@ std::string check_reference(const CLI::App& app, const Options& o) {
                name(o.settings.transparency);
     std::vector<const char*> of_devices{"--backend",  "--device",         "--gbuffer",  "--lighting",
                                         "--shading",  "--exact",          "--validate", "--aov",
-                                        "--gl-spirv", "--pipeline-cache", "--frames"};
+                                        "--gl-spirv", "--pipeline-cache", "--frames",   "--shadow-size"};
     for (const Heeded& option : heeded) of_devices.push_back(option.flag);
     for (const char* flag : of_devices)
         if (app[flag]->count() > 0)
@@ -250,6 +255,8 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     if (const std::string wrong = check_reference(app, o); !wrong.empty()) return {o, usage(wrong)};
     if (const std::string wrong = check_method(app, o); !wrong.empty()) return {o, usage(wrong)};
     if (o.gl_spirv && o.backend == "vulkan") return {o, usage("--gl-spirv goes with --backend opengl")};
+    if (app["--shadow-size"]->count() > 0 && o.settings.shadows == Shadows::none)
+        return {o, usage("--shadow-size goes with --shadows map")};
     if ((!o.heatmap.empty() || o.error_budget || !o.mask.empty()) && o.compare.empty())
         return {o, usage("--heatmap, --mask and --error-budget go with --compare")};
     return {o, std::nullopt};

@@ -103,9 +103,11 @@ ordered_json passes_of(const Report& report) {
 }
 
 ordered_json settings_of(const Report& report, const RenderSettings& s) {
-    ordered_json json{
-        {"transparency", report.translucency.method}, {"brdf", name(s.brdf)}, {"tonemap", name(s.tonemap)}};
-    json["environment"] = name(s.environment.kind);
+    ordered_json json{{"transparency", report.translucency.method},
+                      {"shadows", name(s.shadows)},
+                      {"environment", name(s.environment.kind)},
+                      {"brdf", name(s.brdf)},
+                      {"tonemap", name(s.tonemap)}};
     if (report.device)
         json.update({{"gbuffer", name(s.gbuffer)},
                      {"lighting", name(report.stats.lighting)},
@@ -141,6 +143,12 @@ ordered_json stats_of(const Options& options, const Report& report) {
     if (report.device) {
         const std::string& why = report.stats.lighting_why;
         json["lighting"] = {{"method", name(report.stats.lighting)}, {"why", why.empty() ? "asked for" : why}};
+    }
+    if (report.device && s.shadows != Shadows::none) {
+        const RenderStats& r = report.stats;
+        json["shadows"] = {{"method", name(r.shadows)}, {"why", r.shadows_why.empty() ? "asked for" : r.shadows_why},
+                           {"size", s.shadow_size},     {"lights", r.shadow_lights},
+                           {"maps", r.shadow_maps},     {"drawn", r.shadows_drawn}};
     }
     if (report.comparison) json["comparison"] = ordered_json::parse(report.comparison->json);
     json["warnings"] = report.stats.warnings;

@@ -21,6 +21,7 @@ Result<reference::Picture> draw_reference(const Options& options, const Scene& s
                                  .lights = scene.lights,
                                  .brdf = static_cast<reference::BrdfModel>(s.brdf),  // the same names in one order
                                  .environment = s.environment,
+                                 .shadows = s.shadows != Shadows::none,
                                  .translucent = s.transparency != Transparency::none,
                                  .stability = stability,
                                  .progress = &ProgressBar::show,

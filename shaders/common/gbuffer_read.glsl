@@ -18,40 +18,62 @@ PASS_TEXTURE(PELLUCID_GBUFFER_DEPTH) sampler2D gbuffer_depth;
 struct Pixel {
     Surface surface;
     vec3 position;  // view space
+    vec3 plane;     // unit normal of the surface itself, whatever its shading normal is; only where there are shadows
     bool covered;
 };
 
+// The neighbour in a direction, or against it, whose depth is closer to the pixel's: it is of the same surface more
+// likely.  z: its depth; 0 where both are outside or show nothing.
+vec3 beside(ivec2 at, ivec2 step, float depth) {
+    ivec2 a = at + step, b = at - step, size = ivec2(frame.pixel.zw);
+    float da = a.x < size.x && a.y < size.y ? texelFetch(gbuffer_depth, a, 0).r : 0.0;
+    float db = b.x >= 0 && b.y >= 0 ? texelFetch(gbuffer_depth, b, 0).r : 0.0;
+    bool first = da != 0.0 && (db == 0.0 || abs(da - depth) <= abs(db - depth));
+    return first ? vec3(vec2(a) + 0.5, da) : vec3(vec2(b) + 0.5, db);
+}
+
+// The normal of the plane through a pixel and its neighbours, towards the eye; the stored one where there are none, or
+// where they say so little that it is more than 60° off.
+vec3 plane_normal(ivec2 at, float depth, vec3 stored) {
+    vec3 h = beside(at, ivec2(1, 0), depth), v = beside(at, ivec2(0, 1), depth);
+    if (h.z == 0.0 || v.z == 0.0) return stored;
+    vec3 p = view_from_depth(vec2(at) + 0.5, depth);
+    EXACT vec3 dx = view_from_depth(h.xy, h.z) - p;
+    EXACT vec3 dy = view_from_depth(v.xy, v.z) - p;
+    vec3 n = cross3(dx, dy);
+    float l = dot3(n, n);
+    if (!(l > 1e-36)) return stored;
+    n = unit(n);
+    float same = dot3(n, stored);
+    return abs(same) < 0.5 ? stored : same < 0.0 ? -n : n;
+}
+
 Pixel read_gbuffer(ivec2 at) {
     Pixel p;
-    // Everything is fetched at once, covered or not: a fetch behind a branch waits for the depth first.
     float depth = texelFetch(gbuffer_depth, at, 0).r;
-    vec4 base = texelFetch(gbuffer_base, at, 0);
-#if defined(GBUFFER_CLASSIC)
-    vec4 m = texelFetch(gbuffer_material, at, 0);
-    vec3 n = texelFetch(gbuffer_normal, at, 0).xyz, position = texelFetch(gbuffer_position, at, 0).xyz;
-#else
-    uint m = texelFetch(gbuffer_material, at, 0).r;
-    uint n = texelFetch(gbuffer_normal, at, 0).r;
-#endif
     p.covered = depth != 0.0;
     if (!p.covered) return p;
+    vec4 base = texelFetch(gbuffer_base, at, 0);
     p.surface.base = base.rgb;
 #if defined(GBUFFER_CLASSIC)
+    vec4 m = texelFetch(gbuffer_material, at, 0);
     p.surface.metallic = m.r;
     p.surface.roughness = m.g;
     p.surface.occlusion = m.b;
     p.surface.unlit = m.a > 0.0;
-    p.surface.normal = unit(n);
-    EXACT vec3 relative = position - frame.camera_position;
+    p.surface.normal = unit(texelFetch(gbuffer_normal, at, 0).xyz);
+    EXACT vec3 relative = texelFetch(gbuffer_position, at, 0).xyz - frame.camera_position;
     p.position = view_from_world(relative);
 #else
+    uint m = texelFetch(gbuffer_material, at, 0).r;
     p.surface.metallic = material_metallic(m);
     p.surface.roughness = material_roughness(m);
     p.surface.occlusion = base.a;
     p.surface.unlit = (material_flags(m) & PELLUCID_GBUFFER_UNLIT) != 0u;
-    p.surface.normal = octahedral_decode(n);
+    p.surface.normal = octahedral_decode(texelFetch(gbuffer_normal, at, 0).r);
     p.position = view_from_depth(vec2(at) + 0.5, depth);
 #endif
+    p.plane = needs(PELLUCID_NEED_SHADOWS) ? plane_normal(at, depth, p.surface.normal) : p.surface.normal;
     p.surface.emissive = needs(PELLUCID_NEED_EMISSIVE) ? texelFetch(gbuffer_emissive, at, 0).rgb : vec3(0.0);
     return p;
 }

@@ -6,19 +6,22 @@
 #define PELLUCID_LIGHTING_GLSL
 #include "common/environment.glsl"
 #include "common/light_lists.glsl"
+#include "common/shadow.glsl"
 
 // What a lit point is, beside how it reflects.
 struct LitPoint {
     vec3 p;       // view space
     vec3 to_eye;  // unit
+    vec3 plane;   // unit normal of the surface that shadows fall on
     uvec2 lists;  // lights_at
 };
-LitPoint lit_point(ivec2 pixel, vec3 p, bool translucent) {
-    return LitPoint(p, direction_to_eye(p), lights_at(pixel, p, translucent));
+// Translucent surfaces cast no shadow, so none of their own can fall on them: their shading normal will do for `plane`.
+LitPoint lit_point(ivec2 pixel, vec3 p, vec3 plane, bool translucent) {
+    return LitPoint(p, direction_to_eye(p), plane, lights_at(pixel, p, translucent));
 }
 
 // Adds a point or spot light: exactly nothing where its range or cone ends.
-void add_local_light(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p) {
+void add_local_light(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p, vec3 plane) {
     LightRecord light = lights[i];
     EXACT vec3 d = light.position - p;
     EXACT float d2 = max(dot3(d, d), 1e-6);
@@ -37,7 +40,10 @@ void add_local_light(inout LightSum sum, uint i, Shading s, vec3 base, float met
         strength = strength * cone;
         strength = strength * cone;
     }
-    if (n_l > 0.0 && strength > 0.0) add_light(sum, s, base, metallic, l, n_l, light.intensity * strength);
+    if (!(n_l > 0.0 && strength > 0.0)) return;
+    EXACT vec3 illuminance = light.intensity * strength;
+    if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, p, plane, -d);
+    add_light(sum, s, base, metallic, l, n_l, illuminance);
 }
 
 // Adds every point and spot light that is listed for the point.
@@ -53,12 +59,12 @@ void add_local_lights(inout LightSum sum, Shading s, vec3 base, float metallic, 
                 while (bits != 0u) {
                     uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
                     bits &= bits - 1u;
-                    add_local_light(sum, i, s, base, metallic, at.p);
+                    add_local_light(sum, i, s, base, metallic, at.p, at.plane);
                 }
             }
         }
     } else {
-        for (uint i = at.lists.x; i < at.lists.y; ++i) add_local_light(sum, i, s, base, metallic, at.p);
+        for (uint i = at.lists.x; i < at.lists.y; ++i) add_local_light(sum, i, s, base, metallic, at.p, at.plane);
     }
 }
 
@@ -69,7 +75,10 @@ vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusi
     if (needs(PELLUCID_NEED_DIRECTIONAL)) {
         for (uint i = 0u; i < frame.light_ends.x; ++i) {
             float n_l = dot3(normal, lights[i].to_light);
-            if (n_l > 0.0) add_light(sum, s, base, metallic, lights[i].to_light, n_l, lights[i].intensity);
+            if (!(n_l > 0.0)) continue;
+            EXACT vec3 illuminance = lights[i].intensity;
+            if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, at.p, at.plane, vec3(0.0));
+            add_light(sum, s, base, metallic, lights[i].to_light, n_l, illuminance);
         }
     }
     if (needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) add_local_lights(sum, s, base, metallic, at);

@@ -12,7 +12,7 @@ vec4 shade_fragment() {
     if (!s.unlit) {
         vec3 p = view_from_depth(gl_FragCoord.xy, gl_FragCoord.z);
         radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal,
-                                                lit_point(ivec2(gl_FragCoord.xy), p, true));
+                                                lit_point(ivec2(gl_FragCoord.xy), p, s.normal, true));
     }
     return premultiply(s, radiance);
 }

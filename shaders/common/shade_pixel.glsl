@@ -21,7 +21,7 @@ vec4 shade_pixel(ivec2 at) {
     EXACT vec3 radiance = s.emissive;
     if (!(needs(PELLUCID_NEED_UNLIT) && s.unlit))
         radiance = radiance + evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal,
-                                                lit_point(at, p.position, false));
+                                                lit_point(at, p.position, p.plane, false));
     return vec4(min(radiance, vec3(65504.0)), 1.0);
 }
 

@@ -49,6 +49,6 @@ Surface unpack_surface(uvec4 node, uvec4 look) {
 vec3 light_surface(Surface s, ivec2 at, float depth) {
     if (s.unlit) return vec3(0.0);
     vec3 p = view_from_depth(vec2(at) + 0.5, depth);
-    return evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, lit_point(at, p, true));
+    return evaluate_lighting(s.base, s.metallic, s.roughness, s.occlusion, s.normal, lit_point(at, p, s.normal, true));
 }
 #endif

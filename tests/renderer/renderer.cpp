@@ -147,6 +147,8 @@ TEMPLATE_LIST_TEST_CASE("a frame allocates nothing once the first ones are drawn
     for (const ShadingStage stage : {ShadingStage::compute, ShadingStage::fragment}) {
         RenderSettings settings = test::settings_for(n);
         settings.shading = stage;
+        settings.shadows = stage == ShadingStage::compute ? Shadows::map : Shadows::none;
+        settings.shadow_size = 64;
         auto renderer = test::must(Renderer<TestType>::create(*device, scene, settings));
         Camera camera = test::varied_camera();
         auto frame = [&] {

@@ -60,10 +60,20 @@ expect(2 "--layers goes with --transparency peel, peel-seed or dual-peel, and me
 expect(2 "--audit composites every fragment, so --min-transmittance ends no pixel" ${asked} --audit
   --min-transmittance 0.01)
 
+# Shadows: a size that cannot be, and one that nothing heeds.
+expect(2 "--shadow-size goes with --shadows map" ${asked} --shadow-size 512)
+expect(2 "--shadow-size goes with --shadows map" ${asked} --shadows none --shadow-size 512)
+expect(2 "--shadows: Check raytraced value in" ${asked} --shadows raytraced)
+foreach(side 0 15 99999)
+  expect(2 "a shadow map.s size is ${side}; each side must be 16 to [0-9]+ texels on" ${asked} --shadows map
+    --shadow-size ${side})
+endforeach()
+expect(2 "--shadow-size" ${asked} --shadows map --shadow-size x)
+
 # The reference renderer draws on no device, and by no method.
 foreach(option "--device=0" "--gbuffer=classic" "--lighting=loop" "--shading=fragment" --exact --validate
     "--aov=depth=${WORK}/none.png" --gl-spirv "--pipeline-cache=${WORK}/cache" "--frames=2" "--layers=2"
-    "--memory-budget=1M" "--min-transmittance=0.1" --seed-composite --skyx-alpha-gain --audit)
+    "--shadow-size=64" "--memory-budget=1M" "--min-transmittance=0.1" --seed-composite --skyx-alpha-gain --audit)
   string(REGEX REPLACE "=.*" "" name "${option}")
   run(2 "${name} is about drawing on a device, and --reference draws on the CPU: leave it out" ${asked} --reference
     ${option})

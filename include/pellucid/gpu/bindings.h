@@ -21,7 +21,9 @@
 #define PELLUCID_BIND_DRAWS 27
 #define PELLUCID_BIND_LIGHTS 28
 #define PELLUCID_BIND_LIGHT_LISTS 29
-#define PELLUCID_BIND_TEXTURES 32  // 32 … 39: texture arrays
+#define PELLUCID_BIND_TEXTURES 32     // 32 … 39: texture arrays
+#define PELLUCID_BIND_SHADOW_MAPS 40  // layers of depth (gpu/shadow_map.h)
+#define PELLUCID_BIND_SHADOWS 41      // storage block: ShadowRecord a map
 #define PELLUCID_BIND_DFG 44          // directional albedo (gpu/dfg.h)
 #define PELLUCID_BIND_ENVIRONMENT 45  // cube: an environment's light, prefiltered (gpu/environment.h)
 #define PELLUCID_BIND_SKY 46          // the sky's light (scene/sky.hpp)

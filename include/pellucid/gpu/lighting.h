@@ -4,5 +4,5 @@
 #define PELLUCID_GPU_LIGHTING_H
 #include "pellucid/gpu/gbuffer.h"
 #define PELLUCID_LIGHTING_OUTPUT 0     // storage image, rgba16f: linear radiance
-#define PELLUCID_LIGHTING_TILE_SIZE 16  // workgroup edge [pixel]
+#define PELLUCID_LIGHTING_TILE_SIZE 8  // workgroup edge [pixel]
 #endif

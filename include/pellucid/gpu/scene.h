@@ -28,15 +28,17 @@
 #define PELLUCID_NEED_UNLIT 512u
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
-#define PELLUCID_NEED_SKY 65536u          // the procedural sky shines
-#define PELLUCID_NEED_ENVIRONMENT 131072u  // a picture of an environment shines
-#define PELLUCID_NEED_BACKDROP 262144u     // and is seen where nothing else is
 #define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
 #define PELLUCID_NEED_ALL 8191u
 // Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
 #define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
+// What a setting asks for.
+#define PELLUCID_NEED_SKY 65536u           // the procedural sky shines
+#define PELLUCID_NEED_ENVIRONMENT 131072u  // a picture of an environment shines
+#define PELLUCID_NEED_BACKDROP 262144u     // and is seen where nothing else is
+#define PELLUCID_NEED_SHADOWS 524288u      // a light has a shadow map (gpu/shadow_map.h)
 
 // Specialisation constant 1: the reflectance model.
 #define PELLUCID_BRDF_GLTF 0u

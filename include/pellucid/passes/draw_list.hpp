@@ -28,14 +28,16 @@ struct SceneBinding {
     rhi::Uses uses = {};  ///< every resource of `group`
 };
 
-/// Shape of group 2: vertices, indices, materials, lights and their lists, texture arrays.
+/// Shape of group 2: vertices, indices, materials, lights, their lists and shadows, texture arrays.
 [[nodiscard]] constexpr rhi::GroupLayout scene_group_layout() {
     using enum rhi::BindingKind;
     rhi::GroupLayout layout{{{PELLUCID_BIND_VERTICES, storage_buffer},
                              {PELLUCID_BIND_INDICES, storage_buffer},
                              {PELLUCID_BIND_MATERIALS, storage_buffer},
                              {PELLUCID_BIND_LIGHTS, storage_buffer},
-                             {PELLUCID_BIND_LIGHT_LISTS, storage_buffer}}};
+                             {PELLUCID_BIND_LIGHT_LISTS, storage_buffer},
+                             {PELLUCID_BIND_SHADOW_MAPS, sampled_texture},
+                             {PELLUCID_BIND_SHADOWS, storage_buffer}}};
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i)
         layout.bindings.push_back({PELLUCID_BIND_TEXTURES + i, sampled_texture});
     for (const std::uint32_t binding : {PELLUCID_BIND_DFG, PELLUCID_BIND_ENVIRONMENT, PELLUCID_BIND_SKY})

@@ -3,8 +3,8 @@
 /// \file
 /// Punctual lights as KHR_lights_punctual means them, and the radiance of a surface under a list of them, in double.
 ///
-/// No shadows.  Radiance = Σ f(V,L)(N·L) E + ambient + emissive [cd/m²], with E the illuminance of a
-/// light at normal incidence [lx] times its linear colour:
+/// Shadows are for whoever calls to say.  Radiance = Σ f(V,L)(N·L) E + ambient + environment + emissive [cd/m²], with
+/// E the illuminance of a light at normal incidence [lx] times its linear colour:
 ///   directional E = intensity;   point E = intensity · falloff(d);   spot E = point's E · cone².
 #include <algorithm>
 #include <cmath>
@@ -64,6 +64,21 @@ struct LightSample {
                                                  BrdfModel model = BrdfModel::gltf,
                                                  const EnvironmentLight* environment = nullptr);
 
+/// The same of the lights that get there: `visible(light, to_light)` says so of one that lights the surface.
+template <class Visible>
+[[nodiscard]] glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
+                                          std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model,
+                                          Visible&& visible, const EnvironmentLight* environment) {
+    glm::dvec3 radiance = surface.emissive + ambient * surface.base_color * surface.occlusion;
+    for (const Light& light : lights) {
+        const LightSample sample = sample_light(light, position);
+        const glm::dvec3 added = evaluate_brdf(model, surface, to_eye, sample.to_light).total() * sample.illuminance;
+        if (added != glm::dvec3(0) && visible(light, sample.to_light)) radiance += added;
+    }
+    if (environment) radiance += environment_response(surface, to_eye, *environment, model) * surface.occlusion;
+    return radiance;
+}
+
 // ---------------------------------------------------------------------------------------------------- bodies
 
 double distance_falloff(double distance, double range) noexcept {
@@ -111,13 +126,9 @@ glm::dvec3 direction_to_eye(const Camera& camera, glm::dvec3 position) noexcept 
 glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position, glm::dvec3 to_eye,
                             std::span<const Light> lights, glm::dvec3 ambient, BrdfModel model,
                             const EnvironmentLight* environment) {
-    glm::dvec3 radiance = surface.emissive + ambient * surface.base_color * surface.occlusion;
-    for (const Light& light : lights) {
-        const LightSample sample = sample_light(light, position);
-        radiance += evaluate_brdf(model, surface, to_eye, sample.to_light).total() * sample.illuminance;
-    }
-    if (environment) radiance += environment_response(surface, to_eye, *environment, model) * surface.occlusion;
-    return radiance;
+    return surface_radiance(
+        surface, position, to_eye, lights, ambient, model, [](const Light&, const glm::dvec3&) { return true; },
+        environment);
 }
 
 }  // namespace pellucid::reference

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <new>
 #include <pellucid/reference/detail/fragments.hpp>
+#include <pellucid/reference/detail/shadow_rays.hpp>
 #include <pellucid/reference/detail/tiles.hpp>
 #include <pellucid/reference/renderer.hpp>
 #include <span>
@@ -77,6 +78,7 @@ inline Result<Prepared> prepare(const Scene& scene, const Camera& camera, const 
     bind_materials(scene, out);
     PELLUCID_CHECK(check_environment(options.environment));
     if (options.environment.kind != EnvironmentKind::none) out.environment.emplace(options.environment);
+    if (options.shadows) out.casters = caster_tree(out);
     return out;
 }
 

@@ -16,6 +16,10 @@
 /// extrapolated on the triangle's plane.  Each texture keeps its own size and sampler, whatever a GPU merges.  Radiance
 /// has no upper limit here.
 ///
+/// With shadows, a light does not reach a point where a triangle of an opaque or masked material, with its front
+/// towards the light or double-sided, lies between them (masked ones where they are there, by level 0 of their
+/// texture); blended ones cast none.  A point's own triangle never shadows it.
+///
 /// Link `pellucid::reference` (it needs TBB).
 #include <cstdint>
 #include <glm/vec3.hpp>
@@ -39,6 +43,7 @@ struct RenderOptions {
     glm::dvec3 ambient{0, 0, 0};       ///< [cd/m²] the same radiance from everywhere; finite
     BrdfModel brdf = BrdfModel::gltf;  ///< of every lit surface
     Environment environment = {};      ///< light from all around; its backdrop replaces the background
+    bool shadows = false;              ///< of lights with Light::shadows: exact and hard, see below
     bool translucent = true;           ///< false: blended surfaces are left out
     bool stability = false;            ///< also fill Picture::stable, at nine times the rasterisation
     /// N: corners in front of the eye are first moved to the nearest points of a grid of 1/N pixel, as devices move

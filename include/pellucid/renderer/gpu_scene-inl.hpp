@@ -97,6 +97,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
         p.world_from_object = instance.world_from_object;
         const glm::dvec3 middle = 0.5 * (glm::dvec3(mesh.lower) + glm::dvec3(mesh.upper));
         p.center = glm::dvec3(instance.world_from_object * glm::dvec4(middle, 1));
+        p.bounds = WorldBox::placed(glm::dvec3(mesh.lower), glm::dvec3(mesh.upper), instance.world_from_object);
         const bool mirrored = (p.record.flags & PELLUCID_DRAW_MIRRORED) != 0;
         p.item = {.first_index = p.record.first_index,
                   .index_count = static_cast<std::uint32_t>(mesh.indices.size()),
@@ -106,6 +107,7 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
                           : mirrored            ? rhi::Cull::front
                                                 : rhi::Cull::back};
         p.translucent = blend;
+        p.masked = material.alpha_mode == AlphaMode::mask;
         mirrored_.push_back(mirrored ? 1 : 0);
         auto bit = [](rhi::Cull cull) { return 1u << static_cast<std::uint32_t>(cull); };
         if (blend && any_order(settings.transparency)) {
@@ -120,12 +122,56 @@ void GpuScene<B>::place_instances(const Scene& scene, const MeshPlacement& meshe
             opaque_culls_ |= bit(p.item.cull);
             opaque_.push_back(p.item);
         }
+        all_.push_back(static_cast<std::uint32_t>(placed_.size()));
         placed_.push_back(p);
     }
     if (!sorted_.empty()) translucent_.reserve(2 * sorted_.size());
     if (settings.transparency != Transparency::peel) return;
     reversed_.assign(translucent_.rbegin(), translucent_.rend());
     for (DrawItem& item : reversed_) item.first_index = meshes.reversed_index(item.first_index, item.index_count);
+}
+
+template <rhi::Backend B>
+void GpuScene<B>::place_shadows() {
+    std::vector<ShadowCaster> casters;
+    WorldBox all;
+    for (const Placed& p : placed_) {
+        all.add(p.bounds);
+        if (!p.translucent) casters.push_back({p.item, p.bounds, p.masked});
+    }
+    shadows_->place(std::move(casters), all);
+}
+
+template <rhi::Backend B>
+Result<void> GpuScene<B>::make_group(typename B::Device& device, rhi::Texture shadow_maps, rhi::Buffer shadows,
+                                     rhi::Unique<typename B::Device, rhi::Group>& out, SceneBinding& binding) {
+    rhi::GroupDesc group{.slot = rhi::GroupSlot::scene, .layout = scene_group_layout(), .debug_name = "scene"};
+    const auto bind_buffer = [&](std::uint32_t number, rhi::Buffer buffer, bool stands_in = false) {
+        group.bindings.push_back({.binding = number, .buffer = buffer});
+        if (!stands_in) binding.uses.push_back(rhi::use(buffer, rhi::Access::storage_read));
+    };
+    bind_buffer(PELLUCID_BIND_VERTICES, vertices_);
+    bind_buffer(PELLUCID_BIND_INDICES, indices_);
+    bind_buffer(PELLUCID_BIND_MATERIALS, materials_);
+    bind_buffer(PELLUCID_BIND_LIGHTS, lights_->records());
+    bind_buffer(PELLUCID_BIND_LIGHT_LISTS, lights_->lists());
+    for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i) {
+        const std::size_t at = std::min<std::size_t>(i, textures_.size() - 1);
+        group.bindings.push_back(
+            {.binding = PELLUCID_BIND_TEXTURES + i, .texture = textures_[at], .sampler = samplers_[at]});
+        if (i == at) binding.uses.push_back(rhi::use(textures_[at], rhi::Access::sampled));
+    }
+    // Any array and any storage buffer stand in for shadows that there are none of: nothing reads them.
+    bind_buffer(PELLUCID_BIND_SHADOWS, shadows ? shadows : lights_->records(), !shadows);
+    group.bindings.push_back({.binding = PELLUCID_BIND_SHADOW_MAPS,
+                              .texture = shadow_maps ? shadow_maps : textures_.back().get(),
+                              .sampler = shadow_maps ? shadow_sampler_.get() : samplers_.back().get()});
+    if (shadow_maps) binding.uses.push_back(rhi::use(shadow_maps, rhi::Access::sampled));
+    environment_->bind(group, binding.uses);
+    PELLUCID_OWN(out, device, device.make_group(group));
+    binding.group = out;
+    binding.indices = indices_;
+    return {};
 }
 
 template <rhi::Backend B>
@@ -175,32 +221,24 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
         PELLUCID_OWN(sampler, device, device.make_sampler({.mipmapped = false, .debug_name = "scene.no_texture"}));
         out.samplers_.push_back(std::move(sampler));
     }
-    rhi::GroupDesc group{.slot = rhi::GroupSlot::scene, .layout = scene_group_layout(), .debug_name = "scene"};
-    auto bind_buffer = [&](std::uint32_t binding, rhi::Buffer buffer) {
-        group.bindings.push_back({.binding = binding, .buffer = buffer});
-        out.binding_.uses.push_back(rhi::use(buffer, rhi::Access::storage_read));
-    };
-    bind_buffer(PELLUCID_BIND_VERTICES, out.vertices_);
-    bind_buffer(PELLUCID_BIND_INDICES, out.indices_);
-    bind_buffer(PELLUCID_BIND_MATERIALS, out.materials_);
-    bind_buffer(PELLUCID_BIND_LIGHTS, out.lights_->records());
-    bind_buffer(PELLUCID_BIND_LIGHT_LISTS, out.lights_->lists());
-    for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i) {
-        const std::size_t at = std::min<std::size_t>(i, out.textures_.size() - 1);
-        group.bindings.push_back(
-            {.binding = PELLUCID_BIND_TEXTURES + i, .texture = out.textures_[at], .sampler = out.samplers_[at]});
-        if (i == at) out.binding_.uses.push_back(rhi::use(out.textures_[at], rhi::Access::sampled));
+    if (needs.shadows == Shadows::map) {
+        PELLUCID_TRY(out.shadows_, GpuShadows<B>::create(device, out.lights_->sources(), settings, needs));
+        out.shadows_->each_resource([&](const char* debug_name, std::uint64_t bytes) {
+            out.resources_.push_back({debug_name, bytes, false});
+        });
+        PELLUCID_OWN(out.shadow_sampler_, device, device.make_sampler(texel_sampler("scene.shadow_maps")));
+        PELLUCID_CHECK(out.make_group(device, {}, {}, out.shadow_group_, out.shadow_binding_));
+        PELLUCID_CHECK(out.make_group(device, out.shadows_->maps(), out.shadows_->records(), out.group_, out.binding_));
+    } else {
+        PELLUCID_CHECK(out.make_group(device, {}, {}, out.group_, out.binding_));
     }
-    out.environment_->bind(group, out.binding_.uses);
-    PELLUCID_OWN(out.group_, device, device.make_group(group));
-    out.binding_.group = out.group_;
-    out.binding_.indices = out.indices_;
     out.place_instances(scene, meshes, settings);
+    if (out.shadows_) out.place_shadows();
     return out;
 }
 
-template <rhi::Backend B>
-gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSettings& settings) const {
+/// What a shader must know of a view: where it is and how it projects.
+[[nodiscard]] inline gpu::FrameParams view_params(const Camera& camera, Extent2D size) {
     gpu::FrameParams f{};
     const glm::dmat4& w = camera.world_from_view;
     auto narrow = [](double a, double b, double c, double d) {
@@ -209,13 +247,19 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
     f.world_x = narrow(w[0].x, w[0].y, w[0].z, 0);
     f.world_y = narrow(w[1].x, w[1].y, w[1].z, 0);
     f.world_z = narrow(w[2].x, w[2].y, w[2].z, 0);
-    const ClipFromView clip = clip_from_view(camera, settings.size);
+    const ClipFromView clip = clip_from_view(camera, size);
     f.clip_scale = narrow(clip.sx, clip.sy, clip.ox, clip.oy);
     f.clip_depth = narrow(clip.zz, clip.zw, clip.wz, clip.ww);
-    f.pixel = narrow(2.0 / settings.size.width, 2.0 / settings.size.height, settings.size.width, settings.size.height);
+    f.pixel = narrow(2.0 / size.width, 2.0 / size.height, size.width, size.height);
+    f.camera_position = to_gpu(glm::dvec3(w[3]));
+    return f;
+}
+
+template <rhi::Backend B>
+gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSettings& settings) const {
+    gpu::FrameParams f = view_params(camera, settings.size);
     f.exposure = std::exp2(settings.exposure_ev);
     f.background = to_gpu(settings.background);
-    f.camera_position = to_gpu(glm::dvec3(w[3]));
     f.draw_count = instances();
     lights_->describe(f);
     f.environment_lod = environment_->last_level();
@@ -223,19 +267,39 @@ gpu::FrameParams GpuScene<B>::frame_params(const Camera& camera, const RenderSet
 }
 
 template <rhi::Backend B>
+Result<void> GpuScene<B>::place_view(typename B::Commands& cmd, const glm::dmat4& view_from_world,
+                                     const gpu::FrameParams& frame, std::span<const std::uint32_t> which,
+                                     SceneBinding& out) const {
+    PELLUCID_TRY(out.frame, cmd.upload_uniforms(rhi::bytes_of(frame)));
+    const auto count = static_cast<std::uint32_t>(std::max<std::size_t>(1, which.size()));
+    PELLUCID_TRY(out.records, cmd.upload_records(count, sizeof(gpu::DrawRecord)));
+    std::byte* bytes = out.records.bytes.data();
+    for (const std::uint32_t i : which) {
+        gpu::DrawRecord record = placed_[i].record;
+        place(record, view_from_world * placed_[i].world_from_object);
+        std::memcpy(bytes, &record, sizeof record);
+        bytes += sizeof record;
+    }
+    return {};
+}
+
+template <rhi::Backend B>
+Result<void> GpuScene<B>::draw_shadows(typename B::Commands& cmd, const ShadowMapPass<B>& pass, const Camera& camera,
+                                       const RenderSettings& settings) {
+    const auto view = [&](const Camera& map, Extent2D size,
+                          std::span<const std::uint32_t> which) -> Result<SceneBinding> {
+        SceneBinding out = shadow_binding_;
+        PELLUCID_CHECK(place_view(cmd, rigid_inverse(map.world_from_view), view_params(map, size), which, out));
+        return out;
+    };
+    return shadows_->record(cmd, pass, camera, settings.size, view);
+}
+
+template <rhi::Backend B>
 Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings) {
     const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
     lights_->update(cmd, camera, view_from_world);
-    const gpu::FrameParams frame = frame_params(camera, settings);
-    PELLUCID_TRY(binding_.frame, cmd.upload_uniforms(rhi::bytes_of(frame)));
-    PELLUCID_TRY(binding_.records, cmd.upload_records(std::max(1u, instances()), sizeof(gpu::DrawRecord)));
-    std::byte* out = binding_.records.bytes.data();
-    for (const Placed& p : placed_) {
-        gpu::DrawRecord record = p.record;
-        place(record, view_from_world * p.world_from_object);
-        std::memcpy(out, &record, sizeof record);
-        out += sizeof record;
-    }
+    PELLUCID_CHECK(place_view(cmd, view_from_world, frame_params(camera, settings), all_, binding_));
     if (sorted_.empty()) return {};
     for (SortedItem& item : sorted_)
         item.view_depth = -(view_from_world * glm::dvec4(placed_[item.draw.record].center, 1)).z;

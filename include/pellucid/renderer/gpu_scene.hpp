@@ -5,9 +5,11 @@
 /// and texture arrays in one group; instances as records of the frame's ring.
 #include <pellucid/graph/graph.hpp>
 #include <pellucid/passes/draw_list.hpp>
+#include <pellucid/passes/full_screen.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
 #include <pellucid/renderer/gpu_environment.hpp>
 #include <pellucid/renderer/gpu_lights.hpp>
+#include <pellucid/renderer/gpu_shadows.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/scene_convert.hpp>
 #include <pellucid/rhi/unique.hpp>
@@ -32,6 +34,10 @@ public:
     [[nodiscard]] Result<void> begin_frame(typename B::Commands& cmd, const Camera& camera,
                                            const RenderSettings& settings);
 
+    /// Draws the shadow maps that this frame's camera asks for.  Precondition: begin_frame, shadows(), no pass is open.
+    [[nodiscard]] Result<void> draw_shadows(typename B::Commands& cmd, const ShadowMapPass<B>& pass,
+                                            const Camera& camera, const RenderSettings& settings);
+
     /// What passes bind; valid after begin_frame, for this frame.
     [[nodiscard]] const SceneBinding& binding() const noexcept { return binding_; }
     [[nodiscard]] std::span<const DrawItem> opaque() const noexcept { return opaque_; }
@@ -44,6 +50,8 @@ public:
     [[nodiscard]] std::uint32_t instances() const noexcept { return static_cast<std::uint32_t>(placed_.size()); }
     [[nodiscard]] const GpuLights<B>& lights() const noexcept { return *lights_; }
     [[nodiscard]] const GpuEnvironment<B>& environment() const noexcept { return *environment_; }
+    /// Null where no light has a shadow map.
+    [[nodiscard]] const GpuShadows<B>* shadows() const noexcept { return shadows_ ? &*shadows_ : nullptr; }
     [[nodiscard]] std::uint64_t triangles() const noexcept { return triangles_; }
     [[nodiscard]] const std::vector<TextureReport>& resources() const noexcept { return resources_; }
     [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
@@ -53,8 +61,9 @@ private:
         gpu::DrawRecord record{};  ///< all but the matrices, which depend on the camera
         glm::dmat4 world_from_object{1.0};
         glm::dvec3 center{0, 0, 0};  ///< [m] world, of the bounds
+        WorldBox bounds;
         DrawItem item;
-        bool translucent = false;
+        bool translucent = false, masked = false;
     };
     template <class T>
     [[nodiscard]] Result<void> make_buffer(typename B::Device& device,
@@ -62,21 +71,31 @@ private:
                                            rhi::BufferUsage usage, const char* debug_name);
     [[nodiscard]] Result<void> make_textures(typename B::Device& device, const Scene& scene, const TexturePlan& plan);
     void place_instances(const Scene& scene, const MeshPlacement& meshes, const RenderSettings& settings);
+    [[nodiscard]] Result<void> make_group(typename B::Device& device, rhi::Texture shadow_maps, rhi::Buffer shadows,
+                                          rhi::Unique<typename B::Device, rhi::Group>& out, SceneBinding& binding);
+    void place_shadows();
     [[nodiscard]] gpu::FrameParams frame_params(const Camera& camera, const RenderSettings& settings) const;
+    /// Uniforms and records of a view of the instances `which`, in that order.
+    [[nodiscard]] Result<void> place_view(typename B::Commands& cmd, const glm::dmat4& view_from_world,
+                                          const gpu::FrameParams& frame, std::span<const std::uint32_t> which,
+                                          SceneBinding& out) const;
 
     rhi::Unique<typename B::Device, rhi::Buffer> vertices_, indices_, materials_;
     std::vector<rhi::Unique<typename B::Device, rhi::Texture>> textures_;
     std::vector<rhi::Unique<typename B::Device, rhi::Sampler>> samplers_;
-    rhi::Unique<typename B::Device, rhi::Group> group_;
+    rhi::Unique<typename B::Device, rhi::Sampler> shadow_sampler_;
+    rhi::Unique<typename B::Device, rhi::Group> group_, shadow_group_;
     std::vector<Placed> placed_;
+    std::vector<std::uint32_t> all_;  ///< indices of placed_
     std::vector<DrawItem> opaque_, translucent_, reversed_;
     std::vector<SortedItem> sorted_;
     std::vector<std::uint8_t> mirrored_;
     std::optional<GpuLights<B>> lights_;
     std::optional<GpuEnvironment<B>> environment_;
+    std::optional<GpuShadows<B>> shadows_;
     std::uint32_t opaque_culls_ = 0, translucent_culls_ = 0;
     std::uint64_t triangles_ = 0;
-    SceneBinding binding_;
+    SceneBinding binding_, shadow_binding_;  ///< of views that draw shadow maps, without those
     std::vector<TextureReport> resources_;
     std::vector<std::string> warnings_;
 };

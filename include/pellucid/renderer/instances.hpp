@@ -12,6 +12,7 @@
     how template class LightListsPass<B>;      \
     how template class LightingPass<B>;        \
     how template class LightVolumesPass<B>;    \
+    how template class ShadowMapPass<B>;       \
     how template class SortedForwardPass<B>;   \
     how template class LayerCountPass<B>;      \
     how template class AbufferPass<B>;         \
@@ -25,6 +26,7 @@
     how template class EnvironmentPass<B>;     \
     how template class GpuEnvironment<B>;      \
     how template class GpuLights<B>;           \
+    how template class GpuShadows<B>;          \
     how template class GpuScene<B>;            \
     how template class Translucent<B>;         \
     how template class Renderer<B>;

@@ -4,6 +4,7 @@
 /// What a scene needs, and why: it culls passes, sizes targets and sets specialisation constant 0 of every shader.
 #include <pellucid/gpu/fragment_lists.h>
 #include <pellucid/gpu/scene.h>
+#include <pellucid/gpu/shadow_map.h>
 #include <pellucid/renderer/settings.hpp>
 #include <pellucid/scene/scene.hpp>
 #include <cstdint>
@@ -20,6 +21,10 @@ struct SceneNeeds {
     std::string assignment_why;                          ///< why, where it is not the one that was asked for
     bool albedo_table = false;                           ///< image-based light or the conserving model looks it up
     LightGrid grid;                                      ///< of tiled and clustered; empty for others
+    Shadows shadows = Shadows::none;                     ///< `map` where some light has a shadow map
+    std::string shadows_why;                             ///< why, where it is not what was asked for
+    std::uint32_t shadow_lights = 0;                     ///< with shadow maps
+    std::uint32_t shadow_maps = 0;                       ///< of all of them: layers of the array
     bool opaque = false;           ///< any opaque or masked instance, or translucent ones are lit as they are
     bool lighting = false;         ///< a G-buffer and a lighting pass: light falls on them, or the G-buffer is kept
     bool translucent = false;      ///< any blended instance that is to be drawn
@@ -59,6 +64,40 @@ inline constexpr float default_ambient = 0.25f;
     return {};
 }
 
+/// Half angle [rad] of the widest spot whose shadow is one map; wider ones have six, as point lights do.
+inline constexpr double widest_shadow_spot = 1.05;
+
+/// Shadow maps that a light takes at most.
+[[nodiscard]] inline std::uint32_t shadow_maps_of(const Light& light) {
+    if (!light.shadows) return 0;
+    if (light.kind == LightKind::directional) return PELLUCID_SHADOW_CASCADES;
+    return light.kind == LightKind::spot && light.outer_cone <= widest_shadow_spot ? 1u : PELLUCID_SHADOW_FACES;
+}
+
+/// That a device can hold the shadow maps, before anything is allocated.  Errors: `invalid_argument` for a size out of
+/// range or more bytes than `max_shadow_bytes`; `unsupported` for more maps than the device has layers.
+[[nodiscard]] inline Result<void> check_shadows(const SceneNeeds& needs, const RenderSettings& settings,
+                                                const rhi::DeviceInfo& device) {
+    if (settings.shadows == Shadows::none) return {};
+    const std::uint32_t side = settings.shadow_size;
+    if (side < PELLUCID_SHADOW_MIN_SIZE || side > device.max_texture_size)
+        return Error{Errc::invalid_argument, "a shadow map's size is " + std::to_string(side) + "; each side must be " +
+                                                 std::to_string(PELLUCID_SHADOW_MIN_SIZE) + " to " +
+                                                 std::to_string(device.max_texture_size) + " texels on " + device.name};
+    const std::uint64_t bytes = std::uint64_t{4} * side * side * needs.shadow_maps;
+    const std::string what = "the shadows of " + std::to_string(needs.shadow_lights) + " lights take " +
+                             std::to_string(needs.shadow_maps) + " maps of " + std::to_string(side) + "x" +
+                             std::to_string(side) + " texels, " + std::to_string(bytes) + " bytes; ";
+    constexpr const char* mend = "let fewer lights cast (Light::shadows)";
+    if (needs.shadow_maps > device.max_array_layers)
+        return Error{Errc::unsupported, what + device.name + " has room for " +
+                                            std::to_string(device.max_array_layers) + " maps in an array: " + mend};
+    if (bytes > max_shadow_bytes)
+        return Error{Errc::invalid_argument, what + "the limit is " + std::to_string(max_shadow_bytes) +
+                                                 " bytes: ask for a smaller --shadow-size, or " + mend};
+    return {};
+}
+
 /// Up to so many lights with a place a loop over all of them costs less than lists of them (benchmarks/light_lists).
 inline constexpr std::uint32_t max_looped_lights = 8;
 
@@ -90,13 +129,36 @@ inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std
                                                   : 0u;
 }
 
+/// Settles which lights have shadow maps, once all else is known.
+inline void assign_shadows(SceneNeeds& needs, const Scene& scene, const RenderSettings& settings, bool casters,
+                           bool receivers) {
+    if (settings.shadows == Shadows::none) return;
+    const auto count = [&](const Light& light) {
+        const std::uint32_t maps = shadow_maps_of(light);
+        needs.shadow_lights += maps == 0 ? 0 : 1;
+        needs.shadow_maps += maps;
+    };
+    for (const Light& light : scene.lights) count(light);
+    if (scene.lights.empty() && settings.default_light) count(default_sun());
+    needs.shadows_why = needs.shadow_lights == 0 ? "no light casts shadows"
+                        : !receivers             ? "no light falls on any surface"
+                        : !casters               ? "no opaque surface casts a shadow"
+                                                 : "";
+    if (needs.shadows_why.empty()) {
+        needs.shadows = Shadows::map;
+        needs.mask |= PELLUCID_NEED_SHADOWS;
+    } else {
+        needs.shadow_lights = needs.shadow_maps = 0;
+    }
+}
+
 }  // namespace detail
 
 /// What drawing `scene` with `settings` takes.
 [[nodiscard]] inline SceneNeeds scene_needs(const Scene& scene, const RenderSettings& settings) {
     SceneNeeds needs;
     auto mark = [&](std::uint32_t bit, bool condition) { needs.mask |= condition ? bit : 0u; };
-    bool lit = false, lit_opaque = false, lit_translucent = false;
+    bool lit = false, lit_opaque = false, lit_translucent = false, casters = false;
     bool deferred = false;
     for (const Instance& instance : scene.instances) {
         const Mesh& mesh = scene.meshes[instance.mesh];
@@ -110,6 +172,7 @@ inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std
         needs.emissive_target = needs.emissive_target || (emits && in_gbuffer);
         mark(PELLUCID_NEED_EMISSIVE, emits);
         mark(PELLUCID_NEED_UNLIT, m.unlit);
+        casters = casters || (!blend && !mesh.indices.empty());
         lit = lit || !m.unlit;
         lit_opaque = lit_opaque || !(m.unlit || blend);
         lit_translucent = lit_translucent || (blend && !m.unlit);
@@ -162,6 +225,7 @@ inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std
         needs, settings,
         (needs.lighting ? PELLUCID_LIGHTS_OPAQUE : 0u) |
             (needs.translucent && (lit_translucent || settings.every_need) ? PELLUCID_LIGHTS_TRANSLUCENT : 0u));
+    detail::assign_shadows(needs, scene, settings, casters, lit);
     return needs;
 }
 

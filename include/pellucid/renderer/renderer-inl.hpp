@@ -18,6 +18,7 @@ Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& dev
     PELLUCID_CHECK(check_device(settings.transparency, device.info()));
     PELLUCID_CHECK(check_lights(scene.lights));
     PELLUCID_CHECK(check_environment(settings.environment));
+    PELLUCID_CHECK(check_shadows(scene_needs(scene, settings), settings, device.info()));
     std::unique_ptr<Renderer> renderer(new Renderer(device));
     renderer->settings_ = settings;
     PELLUCID_CHECK(renderer->build(scene));
@@ -46,6 +47,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
         depth_ = target(rhi::Format::d32_float, attachment | sampled | copy_source, "depth");
 
     translucent_.start(graph_, *scene_, needs_, settings_, {.hdr = hdr_, .depth = depth_});
+    declare_shadows();
     if (needs_.lighting) {
         declare_gbuffer();
         const LightingChanges changes = translucent_.declare_before_lighting(colors_, gbuffer_);
@@ -69,6 +71,25 @@ Result<void> Renderer<B>::build(const Scene& scene) {
         graph_.keep(depth_);
     }
     return graph_.compile(*device_);
+}
+
+template <rhi::Backend B>
+void Renderer<B>::declare_shadows() {
+    if (settings_.shadows == Shadows::none) return;
+    if (needs_.shadows == Shadows::none) return graph_.leave_out("shadow_map", needs_.shadows_why);
+    graph_.add(
+        {.name = "shadow_map", .live = true},
+        [this](typename B::Device& device) -> Result<void> {
+            const GpuShadows<B>& shadows = *scene_->shadows();
+            PELLUCID_TRY(shadow_map_pass_, ShadowMapPass<B>::create(device, {.needs = needs_.mask,
+                                                                             .opaque_culls = shadows.culls(false),
+                                                                             .masked_culls = shadows.culls(true)}));
+            pipelines_ += shadow_map_pass_->pipelines();
+            return {};
+        },
+        [this](Frame<B>& frame) -> Result<void> {
+            return scene_->draw_shadows(frame.commands(), *shadow_map_pass_, camera_, settings_);
+        });
 }
 
 template <rhi::Backend B>
@@ -291,6 +312,16 @@ Result<rhi::Texels> Renderer<B>::read_gbuffer(std::size_t index) {
 }
 
 template <rhi::Backend B>
+Result<rhi::Texels> Renderer<B>::read_shadow_map(std::uint32_t layer) {
+    if (layer >= needs_.shadow_maps)
+        return Error{Errc::invalid_argument, "layer " + std::to_string(layer) + " of the shadow maps was asked for; " +
+                                                 "there are " + std::to_string(needs_.shadow_maps)};
+    const std::uint32_t side = scene_->shadows()->size();
+    return rhi::download<B>(*device_, scene_->shadows()->maps(),
+                            {.size = {side, side}, .format = rhi::Format::d32_float}, 0, layer);
+}
+
+template <rhi::Backend B>
 RenderStats Renderer<B>::stats() const {
     RenderStats stats{.passes = graph_.passes(),
                       .resources = graph_.textures(),
@@ -300,6 +331,11 @@ RenderStats Renderer<B>::stats() const {
                       .lights = scene_->lights().size(),
                       .lighting = needs_.assignment,
                       .lighting_why = needs_.assignment_why,
+                      .shadows = needs_.shadows,
+                      .shadows_why = needs_.shadows_why,
+                      .shadow_lights = needs_.shadow_lights,
+                      .shadow_maps = needs_.shadow_maps,
+                      .shadows_drawn = scene_->shadows() ? scene_->shadows()->drawn() : 0,
                       .translucency = translucent_.stats(),
                       .warnings = warnings_};
     translucent_.add_resources(stats.resources);

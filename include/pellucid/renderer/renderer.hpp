@@ -7,6 +7,7 @@
 #include <pellucid/passes/gbuffer.hpp>
 #include <pellucid/passes/light_volumes.hpp>
 #include <pellucid/passes/lighting.hpp>
+#include <pellucid/passes/shadow_map.hpp>
 #include <pellucid/passes/tonemap.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/renderer/needs.hpp>
@@ -29,7 +30,12 @@ struct RenderStats {
     std::uint64_t triangles = 0;           ///< of the scene's instances
     std::uint32_t lights = 0;
     LightAssignment lighting = LightAssignment::loop;
-    std::string lighting_why;           ///< where it is not the one that was asked for
+    std::string lighting_why;  ///< where it is not the one that was asked for
+    Shadows shadows = Shadows::none;
+    std::string shadows_why;            ///< where they are not what was asked for
+    std::uint32_t shadow_lights = 0;    ///< with shadow maps
+    std::uint32_t shadow_maps = 0;      ///< that there is room for
+    std::uint32_t shadows_drawn = 0;    ///< maps that the last frame drew
     TranslucencyStats translucency;     ///< of the last frame
     std::vector<std::string> warnings;  ///< of the scene and of its upload
 };
@@ -43,7 +49,7 @@ public:
     /// Builds what the scene needs and nothing else.  `scene` is copied where it must be kept.
     /// Errors: `invalid_argument` for a size of 0 or beyond the device's limit and for a light out of the ranges that
     /// scene/light.hpp documents; `unsupported` where the device cannot run the method of transparency; those of
-    /// creation.
+    /// check_environment, check_shadows and of creation.
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
 
@@ -63,6 +69,12 @@ public:
     [[nodiscard]] Result<std::vector<std::uint32_t>> read_light_lists() {
         return rhi::download<B, std::uint32_t>(*device_, scene_->lights().lists(), needs_.grid.bytes() / 4);
     }
+
+    /// `[size, size]` depths of a layer of the shadow maps of the last frame; waits.  `invalid_argument` where there is
+    /// no such layer.
+    [[nodiscard]] Result<rhi::Texels> read_shadow_map(std::uint32_t layer);
+    /// What the layers of the shadow maps are views of; null where no light has one.
+    [[nodiscard]] const GpuShadows<B>* shadows() const noexcept { return scene_->shadows(); }
 
     /// `[h, w, 1]` translucent fragments in front of what is opaque, of the last frame; counts them in a frame of its
     /// own and waits.  `unsupported` on devices without float32_blending.
@@ -86,6 +98,7 @@ public:
 private:
     explicit Renderer(typename B::Device& device) : device_(&device) {}
     [[nodiscard]] Result<void> build(const Scene& scene);
+    void declare_shadows();
     void declare_gbuffer();
     void declare_light_lists(GraphTexture depth);
     void declare_lighting(const LightingChanges& changes);
@@ -111,6 +124,7 @@ private:
     GraphTexture hdr_, depth_, display_;
     SmallVector<GraphTexture, 5> colors_;
     GBufferTargets gbuffer_;
+    std::optional<ShadowMapPass<B>> shadow_map_pass_;
     std::optional<GBufferPass<B>> gbuffer_pass_;
     std::optional<LightListsPass<B>> light_lists_pass_;
     std::optional<LightingPass<B>> lighting_pass_;

@@ -103,12 +103,24 @@ static_assert(
     return t != Transparency::none && t != Transparency::sorted;
 }
 
+enum class Shadows : std::uint8_t {
+    none,  ///< every light reaches every surface that faces it
+    map    ///< opaque and masked surfaces cast, by shadow maps (passes/shadow_map.hpp)
+};
+[[nodiscard]] constexpr const char* name(Shadows s) noexcept {
+    return s == Shadows::none ? "none" : "map";
+}
+/// [byte] Most that the shadow maps of a scene may take.
+inline constexpr std::uint64_t max_shadow_bytes = std::uint64_t{1} << 31;
+
 struct RenderSettings {
     Extent2D size{1280, 720};  ///< [texel] both in 1 … the device's limit
     Transparency transparency = Transparency::abuffer;
     GBufferLayout gbuffer = GBufferLayout::compact;
     ShadingStage shading = ShadingStage::compute;           ///< where lighting runs
     LightAssignment lighting = LightAssignment::automatic;  ///< how lights find the pixels that they reach
+    Shadows shadows = Shadows::none;                        ///< of lights with Light::shadows
+    std::uint32_t shadow_size = 1024;  ///< [texel] a side of each shadow map: 16 to the device's limit
     Brdf brdf = Brdf::gltf;
     ToneCurve tonemap = ToneCurve::neutral;
     float exposure_ev = 0;                      ///< radiance is multiplied by 2^exposure_ev before the tone curve

@@ -26,6 +26,7 @@ struct Light {
     double outer_cone = 0.7853981633974483;  ///< [rad] spot: half angle of no intensity, in (0, pi/2]
     glm::dvec3 position{0, 0, 0};            ///< [m] world
     glm::dvec3 direction{0, 0, -1};          ///< world, unit: the way the light travels
+    bool shadows = true;                     ///< it casts shadows where a renderer is asked for them
     std::string name;
 };
 

@@ -10,6 +10,7 @@
 #include <memory>
 #include <numbers>
 #include <pellucid/reference/lighting.hpp>
+#include <pellucid/reference/detail/triangle_tree.hpp>
 #include <pellucid/reference/raster.hpp>
 #include <pellucid/reference/renderer.hpp>
 #include <pellucid/reference/surface.hpp>
@@ -58,6 +59,7 @@ struct Prepared {
     std::vector<Draw> draws;
     std::uint32_t primitives = 0;
     std::optional<EnvironmentLight> environment;
+    TriangleTree casters;  ///< opaque and masked triangles in world space; empty where no shadows were asked for
 
     [[nodiscard]] RasterTriangle triangle(const Draw& draw, std::uint32_t primitive) const noexcept {
         const std::uint32_t* at = draw.corners(primitive);

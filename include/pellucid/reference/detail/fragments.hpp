@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <pellucid/reference/composite.hpp>
 #include <pellucid/reference/detail/draws.hpp>
+#include <pellucid/reference/detail/shadow_rays.hpp>
 #include <span>
 #include <vector>
 
@@ -174,9 +175,14 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
         fragment.radiance = glm::dvec3(base);
     } else {
         const Surface<double> surface = surface_at(material, at, change, draw.front(triangle), prepared.backward());
-        fragment.radiance =
-            surface_radiance(surface, at.position, direction_to_eye(prepared.camera, at.position), options.lights,
-                             options.ambient, options.brdf, prepared.environment ? &*prepared.environment : nullptr);
+        fragment.radiance = surface_radiance(
+            surface, at.position, direction_to_eye(prepared.camera, at.position), options.lights, options.ambient,
+            options.brdf,
+            [&](const Light& light, const glm::dvec3& to_light) {
+                return !options.shadows || !light.shadows ||
+                       !in_shadow(prepared, at.position, hit.primitive, light, to_light);
+            },
+            prepared.environment ? &*prepared.environment : nullptr);
     }
     fragment.premultiplied =
         material.factors.premultiplied && draw.blended() ? fragment.radiance : fragment.radiance * fragment.alpha;
