@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Where reflection models lose their digits: peaks, rings, grazing views, no half vector.  Each with what the usual
 // formula makes of it.
-#include <array>
-#include <limits>
 #include <numbers>
 #include <pellucid/reference/dfg.hpp>
 #include "hard_cases/lit_pixels.hpp"
@@ -75,14 +73,15 @@ TEMPLATE_LIST_TEST_CASE("hard cases: light, normal and eye in line, at every rou
         INFO("metallic " << metallic);
         CHECK(other == 0);
     }
-    // The seed's D is infinite at 1/255, 2/255 and 3/255, by as little light as keeps the exact values small.
+    // The seed's D is infinite at 1/255, 2/255 and 3/255, or a thousandth where N·H is rounded to below 1.  So little
+    // light keeps the exact values small.
     settings.brdf = Brdf::seed;
     settings.exact = true;  // compilers may find a form that is finite
     Scene scene = material_tiles(4, [](std::uint32_t i) { return white(1, (i % 3 + 1) / 255.0); });
     scene.lights = {sun_in_the_eye(1e-7f)};
     for (const LitPixel& p : lit_pixels<TestType>(*device, scene, flat_camera(), settings)) {
         REQUIRE(p.wanted.x < 34);
-        REQUIRE_FALSE(p.got.x < 65504);
+        REQUIRE_FALSE(std::abs(p.got.x / p.wanted.x - 1) < 0.5);
     }
 }
 

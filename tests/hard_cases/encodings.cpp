@@ -134,13 +134,14 @@ TEMPLATE_LIST_TEST_CASE("hard cases: normals and tangents that are none", "[gpu]
         {"tangent of length 0, w 0", slant, {0, 0, 0, 0}, slant},
         {"tangent along the normal", slant, {slant, 1}, slant},
         {"tangent that is NaN", slant, {not_a_number, not_a_number, not_a_number, 1}, slant},
+        {"tangent against the normal", slant, {-slant, 1}, slant},
         {"w that is NaN", slant, {1, 0, 0, not_a_number}, slant},
         {"normal of length 0", {0, 0, 0}, {0, 0, 0, 1}, z},
         {"normal that is NaN", {not_a_number, not_a_number, not_a_number}, {1, 0, 0, 1}, z},
         {"normal of length 1e-3", slant * 1e-3f, {0, 0, 0, 1}, slant},
         {"normal of length 1e3", slant * 1e3f, {0, 0, 0, 1}, slant},
-        {"normal of length 1e-18", slant * 1e-18f, {0, 0, 0, 1}, z},
-        {"normal of length 1e18", slant * 1e18f, {0, 0, 0, 1}, z},
+        {"normal of length 1e-18", slant * 1e-18f, {0, 0, 0, 1}, slant},
+        {"normal of length 1e18", slant * 1e18f, {0, 0, 0, 1}, slant},
     };
     Image8 lean(1, 1, 4);  // a normal map that leans by half a right angle
     lean.data = {218, 128, 218, 255};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Punctual lights at the ends of their ranges, as near as may be, in narrow cones, in any number; and what the usual
 // formulae make of it.
-#include <pellucid/scene/light_field.hpp>
-#include <limits>
 #include <numbers>
 #include "hard_cases/lit_pixels.hpp"
 #include "support/light_cases.hpp"
