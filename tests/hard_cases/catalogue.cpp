@@ -71,6 +71,9 @@ TEST_CASE("hard cases: the catalogue has all 45 cases and names tests that exist
         const std::string cell = row[3];
         const bool none = cell.find("no such pass yet: ") == 0;
         CHECK((each_test(cell, check) == 0) == none);
+        // Once the file that such a case waits for is there, its tests belong into the table.
+        if (std::smatch awaited; none && std::regex_search(cell, awaited, std::regex("[a-z_/]+\\.cpp")))
+            CHECK_FALSE(exists(tests / awaited[0].str()));
     }
     CHECK(number == 45);
     CHECK(each_test(rest.substr(rest.rfind("And what")), check) > 0);
