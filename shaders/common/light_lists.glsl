@@ -10,8 +10,8 @@ uint light_slice(float ez) {
     return uint(clamp(slice, 0.0, frame.light_slices.z));
 }
 
-// For `local_lights` in common/lighting.glsl, of the point `p` (view space) that is seen in a pixel: the first words of
-// the lists whose common bits are its lights.  Without lists: the lights' range.
+// For `next_light` in common/lighting.glsl, of the point `p` (view space) that is seen in a pixel: the first words of
+// the lists whose common bits are its lights.  Without lists: the end of its lights in y.
 uvec2 lights_at(ivec2 pixel, vec3 p, bool translucent) {
     if (needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) {
         uvec2 at = uvec2(pixel) / uint(PELLUCID_LIGHTS_TILE);
@@ -23,7 +23,7 @@ uvec2 lights_at(ivec2 pixel, vec3 p, bool translucent) {
         return uvec2(list * frame.light_grid.z, frame.light_ends.w + light_slice(p.z) * frame.light_grid.z);
     }
     bool rest_is_added = needs(PELLUCID_NEED_LIGHT_VOLUMES) && !translucent;
-    return uvec2(frame.light_ends.x, rest_is_added ? frame.light_ends.y : frame.light_ends.z);
+    return uvec2(0u, rest_is_added ? frame.light_ends.y : frame.light_ends.z);
 }
 
 // Word `i` of what `lights_at` gave.

@@ -14,6 +14,6 @@ void main() {
     Surface s = p.surface;
     Shading shading = make_shading(s.base, s.metallic, s.roughness, s.normal, direction_to_eye(p.position));
     LightSum sum = no_light();
-    add_local_light(sum, volume.light, shading, s.base, s.metallic, p.position, p.plane);
+    add_light_at(sum, volume.light, shading, s.base, s.metallic, p.position, p.plane);
     out_light = vec4(reflected(sum, shading), 0.0);
 }

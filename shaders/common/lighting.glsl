@@ -20,68 +20,73 @@ LitPoint lit_point(ivec2 pixel, vec3 p, vec3 plane, bool translucent) {
     return LitPoint(p, direction_to_eye(p), plane, lights_at(pixel, p, translucent));
 }
 
-// Adds a point or spot light: exactly nothing where its range or cone ends.
-void add_local_light(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p, vec3 plane) {
+// Adds light `i`: of a point or spot light exactly nothing where its range or cone ends.
+void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p, vec3 plane) {
     LightRecord light = lights[i];
-    EXACT vec3 d = light.position - p;
-    EXACT float d2 = max(dot3(d, d), 1e-6);
-    EXACT float inverse = inversesqrt(d2);
-    EXACT vec3 l = d * inverse;
-    EXACT float n_l = dot3(s.normal, l);
-    EXACT float x = d2 * light.inverse_range_squared;
-    EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
-    EXACT float strength = window * inverse;
-    strength = strength * inverse;
-    if (needs(PELLUCID_NEED_SPOTS) && light.spot_scale > 0.0) {
-        // 1 - cos = |l - axis|²/2 keeps its bits where the cosine has lost them (narrow cones).
-        EXACT vec3 off = l - light.to_light;
-        EXACT float cone = light.spot_edge - 0.5 * dot3(off, off);
-        cone = clamp(cone * light.spot_scale, 0.0, 1.0);
-        strength = strength * cone;
-        strength = strength * cone;
+    EXACT vec3 d = vec3(0.0);
+    EXACT vec3 l = light.to_light;
+    EXACT float strength = 1.0;
+    if (!needs(PELLUCID_NEED_DIRECTIONAL) || i >= frame.light_ends.x) {
+        d = light.position - p;
+        EXACT float d2 = max(dot3(d, d), 1e-6);
+        EXACT float inverse = inversesqrt(d2);
+        l = d * inverse;
+        EXACT float x = d2 * light.inverse_range_squared;
+        EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
+        strength = window * inverse;
+        strength = strength * inverse;
+        if (needs(PELLUCID_NEED_SPOTS) && light.spot_scale > 0.0) {
+            // 1 - cos = |l - axis|²/2 keeps its bits where the cosine has lost them (narrow cones).
+            EXACT vec3 off = l - light.to_light;
+            EXACT float cone = light.spot_edge - 0.5 * dot3(off, off);
+            cone = clamp(cone * light.spot_scale, 0.0, 1.0);
+            strength = strength * cone;
+            strength = strength * cone;
+        }
     }
+    float n_l = dot3(s.normal, l);
     if (!(n_l > 0.0 && strength > 0.0)) return;
     EXACT vec3 illuminance = light.intensity * strength;
     if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, p, plane, -d);
     add_light(sum, s, base, metallic, l, n_l, illuminance);
 }
 
-// Adds every point and spot light that is listed for the point.
-void add_local_lights(inout LightSum sum, Shading s, vec3 base, float metallic, LitPoint at) {
-    if (needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) {
-        uint summaries = frame.light_grid.w;
-        for (uint summary = 0u; summary < summaries; ++summary) {
-            uint words = light_word(at.lists, summary);
-            while (words != 0u) {
-                uint word = summary * 32u + uint(findLSB(words));
-                words &= words - 1u;
-                uint bits = light_word(at.lists, summaries + word);
-                while (bits != 0u) {
-                    uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
-                    bits &= bits - 1u;
-                    add_local_light(sum, i, s, base, metallic, at.p, at.plane);
-                }
-            }
-        }
-    } else {
-        for (uint i = at.lists.x; i < at.lists.y; ++i) add_local_light(sum, i, s, base, metallic, at.p, at.plane);
+// Walks the lights of a point in their order: directional ones, then those that are listed for it.  One loop with one
+// call of what a light does: drivers inline it at every place that calls it, and that is most of what they compile.
+struct LightWalk {
+    uint next;              // light, where there are no lists
+    uint summary, words;    // next word that summarises, what is left of the last one
+    uint word, bits;        // word of 32 lights, what is left of it
+};
+bool next_light(inout LightWalk walk, uvec2 lists, out uint i) {
+    i = walk.next;
+    if (needs(PELLUCID_NEED_DIRECTIONAL) && walk.next < frame.light_ends.x) {
+        ++walk.next;
+        return true;
     }
+    if (!needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) return false;
+    if (!needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) return walk.next++ < lists.y;
+    while (walk.bits == 0u) {
+        while (walk.words == 0u) {
+            if (walk.summary == frame.light_grid.w) return false;
+            walk.words = light_word(lists, walk.summary++);
+        }
+        walk.word = (walk.summary - 1u) * 32u + uint(findLSB(walk.words));
+        walk.words &= walk.words - 1u;
+        walk.bits = light_word(lists, frame.light_grid.w + walk.word);
+    }
+    i = frame.light_ends.x + walk.word * 32u + uint(findLSB(walk.bits));
+    walk.bits &= walk.bits - 1u;
+    return true;
 }
 
 // Radiance towards the eye of a surface at a point.
 vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, LitPoint at) {
     Shading s = make_shading(base, metallic, roughness, normal, at.to_eye);
     LightSum sum = no_light();
-    if (needs(PELLUCID_NEED_DIRECTIONAL)) {
-        for (uint i = 0u; i < frame.light_ends.x; ++i) {
-            float n_l = dot3(normal, lights[i].to_light);
-            if (!(n_l > 0.0)) continue;
-            EXACT vec3 illuminance = lights[i].intensity;
-            if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, at.p, at.plane, vec3(0.0));
-            add_light(sum, s, base, metallic, lights[i].to_light, n_l, illuminance);
-        }
-    }
-    if (needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) add_local_lights(sum, s, base, metallic, at);
+    LightWalk walk = LightWalk(0u, 0u, 0u, 0u, 0u);
+    uint i;
+    while (next_light(walk, at.lists, i)) add_light_at(sum, i, s, base, metallic, at.p, at.plane);
     EXACT vec3 radiance = reflected(sum, s);
     if (needs(PELLUCID_NEED_AMBIENT)) radiance = radiance + base * (frame.ambient * occlusion);
     if (needs(PELLUCID_NEED_SKY | PELLUCID_NEED_ENVIRONMENT))

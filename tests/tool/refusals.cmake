@@ -24,7 +24,7 @@ foreach(share 1 1.5 -0.1 nan inf x 0.5x)
 endforeach()
 expect(2 "--transparency: magic not in .auto,none,sorted,.*abuffer" ${asked} --transparency magic)
 
-expect(2 "--lighting: forward not in .*clustered" ${asked} --lighting forward)
+expect(2 "--lighting: Check forward value in .auto" ${asked} --lighting forward)
 expect(2 "--environment is none, sky or a FILE.hdr, not 'stars'" ${asked} --environment stars)
 expect(3 "none.hdr: there is no such file" ${asked} --environment ${WORK}/none.hdr)
 file(WRITE ${WORK}/broken.hdr "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 4 +X 8\nabc")

@@ -50,6 +50,7 @@ Result<void> GpuEnvironment<B>::stand_in(typename B::Device& device, rhi::Unique
                                 .initial = rhi::bytes_of(black).first(kind == rhi::TextureKind::cube ? 24 : 4),
                                 .debug_name = "scene.no_texture"};
     PELLUCID_OWN(out, device, device.make_texture(desc));
+    resources_.push_back({desc.debug_name, rhi::texture_bytes(desc)});
     return {};
 }
 

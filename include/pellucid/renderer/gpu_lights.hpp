@@ -38,11 +38,16 @@ public:
         add("scene.lights", record_data_.size() * sizeof(gpu::LightRecord));
         if (!grid_.empty()) {
             add("scene.light_bounds", bound_data_.size() * sizeof(gpu::vec4));
-            add("scene.light_lists", grid_.bytes());
+            add("scene.light_lists", list_bytes());
+        } else {
+            add("scene.no_lists", list_bytes());
         }
     }
 
 private:
+    /// There is always something to bind.
+    [[nodiscard]] std::uint64_t list_bytes() const noexcept { return std::max<std::uint64_t>(16, grid_.bytes()); }
+
     std::vector<Light> sources_;
     std::vector<gpu::LightRecord> record_data_;
     std::vector<gpu::vec4> bound_data_;  ///< of lights with a place
@@ -77,7 +82,7 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
     out.ends_ = {up_to(0), up_to(1), up_to(2), static_cast<gpu::uint>(needs.grid.slice_words())};
     out.record_data_.resize(std::max<std::size_t>(1, out.sources_.size()));
     out.bound_data_.resize(std::max(1u, out.ends_.z - out.ends_.x));
-    const std::uint64_t bytes = std::max<std::uint64_t>(16, needs.grid.bytes());
+    const std::uint64_t bytes = out.list_bytes();
     if (const std::uint64_t limit = device.info().max_storage_buffer_bytes; bytes > limit)
         return Error{Errc::unsupported, std::string(name(needs.assignment)) + " lists of " +
                                             std::to_string(needs.placed) + " lights take " + std::to_string(bytes) +
