@@ -79,7 +79,7 @@ uvec2 any_words() {
 }
 vec3 through(vec3 n) {
     if (FORM == ENCODING_NOTHING) return -n;
-    return decode(DECODE_ONLY != 0u ? any_words() : encode(n));
+    return decode(stored(DECODE_ONLY != 0u ? any_words() : encode(n)));
 }
 
 void main() {

@@ -14,7 +14,7 @@ PASS_UNIFORMS(BENCH_ENCODINGS_MATRIX, Matrix) { EncodingMatrix world_from_clip; 
 vec3 through_world(vec3 p) {
     vec3 world = world_from_view(p) + frame.camera_position;
     if (FORM != POSITION_WORLD_FLOAT) {
-        uvec2 words = uvec2(packHalf2x16(world.xy), packHalf2x16(vec2(world.z, 0.0)));
+        uvec2 words = stored(uvec2(packHalf2x16(world.xy), packHalf2x16(vec2(world.z, 0.0))));
         world = vec3(unpackHalf2x16(words.x), unpackHalf2x16(words.y).x);
     }
     return view_from_world(world - frame.camera_position);
@@ -24,7 +24,7 @@ vec3 through_depth(vec3 p, vec2 fragcoord) {
     float depth = clip.z / clip.w;
     if (FORM == POSITION_DEPTH24) {
         uint code = uint(roundEven(clamp(depth, 0.0, 1.0) * 16777215.0));
-        depth = float(code) * (1.0 / 16777215.0);
+        depth = float(stored(code)) * (1.0 / 16777215.0);
     }
     if (USE == POSITION_INVERSE_MATRIX) {
         vec2 ndc = vec2(fragcoord.x * frame.pixel.x - 1.0, 1.0 - fragcoord.y * frame.pixel.y);

@@ -13,14 +13,14 @@ SPEC_CONSTANT(2, BITS, 0u);  // 0: a colour, 8 bits a channel; else one number
 float through_unorm(float v) {
     const float limit = float((1u << BITS) - 1u);
     uint code = uint(v * limit + 0.5);
-    return float(code) * (1.0 / limit);
+    return float(stored(code)) * (1.0 / limit);
 }
 float srgb_decode(float s) {
     return s <= 0.04045 ? s * (1.0 / 12.92) : pow((s + 0.055) * (1.0 / 1.055), 2.4);
 }
 vec3 through_bytes(vec3 v) {
     uvec3 codes = uvec3(v * 255.0 + 0.5);
-    uint word = codes.x | codes.y << 8u | codes.z << 16u;
+    uint word = stored(codes.x | codes.y << 8u | codes.z << 16u);
     return vec3(float(word & 0xFFu), float((word >> 8u) & 0xFFu), float(word >> 16u)) * (1.0 / 255.0);
 }
 vec3 through_color(vec3 c) {
