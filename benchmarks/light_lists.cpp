@@ -68,15 +68,6 @@ struct Field {
     Scene scene = {};
 };
 
-std::vector<Light> in_view(std::vector<Light> lights, const Camera& camera) {
-    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
-    for (Light& light : lights) {
-        light.position = glm::dvec3(view_from_world * glm::dvec4(light.position, 1));
-        light.direction = glm::dvec3(view_from_world * glm::dvec4(light.direction, 0));
-    }
-    return lights;
-}
-
 struct Measure {
     template <rhi::Backend B>
     Result<SpeedErrorTable> operator()(std::type_identity<B>, rhi::DeviceFor<B>& device,
@@ -193,7 +184,7 @@ private:
     template <rhi::Backend B>
     static Result<SpeedErrorRow> judge(const GBufferSet<B>& gbuffer, const ImageF& image, const Field& field,
                                        const Camera& camera, const std::string& where, std::uint32_t samples) {
-        const std::vector<Light> lights = in_view(field.scene.lights, camera);
+        const std::vector<Light> lights = reference::lights_in_view(field.scene.lights, camera);
         RadianceErrors errors;
         std::size_t covered = 0, reaching = 0;
         for (const auto [x, y] : sample_pixels(gbuffer.targets.size, samples)) {

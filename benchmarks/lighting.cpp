@@ -7,6 +7,7 @@
 //              [--clock auto|timestamps|wall] [--json FILE] [--svg FILE] [--quick]
 //
 // Exit status: 0 measured; 1 a result was wrong or a device failed; 2 usage; 4 no device.
+#include "lighting/fetch_floor.hpp"
 #include "lighting/raw_loop.hpp"
 #include "support/gbuffer_set.hpp"
 #include "support/pass_program.hpp"
@@ -180,6 +181,16 @@ struct Measure {
                 const RadianceErrors e = raw_errors(image, lit.content.lights, samples);
                 PELLUCID_CHECK(add(lit, form.name, e, 8, record, lit.lights > 16 ? 1 : settings.repeats));
             }
+
+        PELLUCID_TRY(const FetchFloor<B> fetch, FetchFloor<B>::create(device, sets[0].targets, hdr));
+        {
+            const auto record = [&](rhi::CommandsFor<B>& cmd) { fetch.record(cmd); };
+            const auto once = [&](rhi::CommandsFor<B>& cmd) -> Result<void> { return record(cmd), Result<void>{}; };
+            PELLUCID_CHECK(run_frame<B>(device, once));
+            PELLUCID_TRY(const ImageF image, read_hdr<B>(device, hdr, size));
+            PELLUCID_CHECK(add({.lights = 0}, "compact, read and nothing lit", fetch_errors(sets[0], image, samples),
+                               sets[0].bytes_per_pixel + 8, record, settings.repeats));
+        }
 
         const std::vector<Variant> chosen = variants(scenes);
         std::vector<LightingPass<B>> passes;

@@ -58,7 +58,7 @@ Composite composite_errors(const Case& c, const ImageF& hdr, const glm::vec3& ba
     Composite out;
     const Extent2D size{hdr.width, hdr.height};
     const RayScene rays(c.content, c.camera, size);
-    const std::vector<Light> lights = lights_in_view(c.content, c.camera);
+    const std::vector<Light> lights = reference::lights_in_view(c.content.lights, c.camera);
     std::uint64_t layers = 0, pixels = 0;
     for (const auto [x, y] : sample_pixels(size, samples)) {
         if (!rays.inside_of_surfaces(x, y)) {

@@ -23,6 +23,7 @@ namespace pellucid::bench {
     frame.world_x = column(0), frame.world_y = column(1), frame.world_z = column(2);
     frame.clip_scale = narrow(view.clip.sx, view.clip.sy, view.clip.ox, view.clip.oy);
     frame.clip_depth = narrow(view.clip.zz, view.clip.zw, view.clip.wz, view.clip.ww);
+    frame.view_scale = narrow(1 / view.clip.sx, 1 / view.clip.sy, 0, 0);
     frame.pixel = narrow(2.0 / size.width, 2.0 / size.height, size.width, size.height);
     return frame;
 }

@@ -91,7 +91,7 @@ struct RawLoop {
              .name = "raw loop"});
         cmd.bind_pipeline(pipeline);
         cmd.bind_group(group);
-        cmd.dispatch((size.width + 7) / 8, (size.height + 7) / 8, 1);
+        cmd.dispatch((size.width + 15) / 16, (size.height + 7) / 8, 1);
         cmd.end_compute();
     }
 };

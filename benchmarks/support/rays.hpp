@@ -121,15 +121,4 @@ private:
             .emissive = glm::dvec3(m.emissive)};
 }
 
-/// The lights of a scene with positions and directions in view space.
-[[nodiscard]] inline std::vector<Light> lights_in_view(const Scene& scene, const Camera& camera) {
-    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
-    std::vector<Light> out = scene.lights;
-    for (Light& light : out) {
-        light.position = glm::dvec3(view_from_world * glm::dvec4(light.position, 1));
-        light.direction = glm::dvec3(view_from_world * glm::dvec4(light.direction, 0));
-    }
-    return out;
-}
-
 }  // namespace pellucid::bench

@@ -48,32 +48,59 @@ vec3 plane_normal(ivec2 at, float depth, vec3 stored) {
     return abs(same) < 0.5 ? stored : same < 0.0 ? -n : n;
 }
 
-Pixel read_gbuffer(ivec2 at) {
-    Pixel p;
-    float depth = texelFetch(gbuffer_depth, at, 0).r;
-    p.covered = depth != 0.0;
-    if (!p.covered) return p;
-    vec4 base = texelFetch(gbuffer_base, at, 0);
-    p.surface.base = base.rgb;
+// What is stored of a pixel.  Read as a whole, before anything depends on it: then all of it is under way at once.
+struct Stored {
+    float depth;
+    vec4 base;
 #if defined(GBUFFER_CLASSIC)
-    vec4 m = texelFetch(gbuffer_material, at, 0);
-    p.surface.metallic = m.r;
-    p.surface.roughness = m.g;
-    p.surface.occlusion = m.b;
-    p.surface.unlit = m.a > 0.0;
-    p.surface.normal = unit(texelFetch(gbuffer_normal, at, 0).xyz);
-    EXACT vec3 relative = texelFetch(gbuffer_position, at, 0).xyz - frame.camera_position;
+    vec3 position;
+    vec3 normal;
+    vec4 material;
+#else
+    uint normal;
+    uint material;
+#endif
+    vec3 emissive;
+};
+
+Stored fetch_gbuffer(ivec2 at) {
+    Stored s;
+    s.depth = texelFetch(gbuffer_depth, at, 0).r;
+    s.base = texelFetch(gbuffer_base, at, 0);
+#if defined(GBUFFER_CLASSIC)
+    s.position = texelFetch(gbuffer_position, at, 0).xyz;
+    s.normal = texelFetch(gbuffer_normal, at, 0).xyz;
+    s.material = texelFetch(gbuffer_material, at, 0);
+#else
+    s.normal = texelFetch(gbuffer_normal, at, 0).r;
+    s.material = texelFetch(gbuffer_material, at, 0).r;
+#endif
+    s.emissive = needs(PELLUCID_NEED_EMISSIVE) ? texelFetch(gbuffer_emissive, at, 0).rgb : vec3(0.0);
+    return s;
+}
+
+Pixel decode_gbuffer(ivec2 at, Stored s) {
+    Pixel p;
+    p.covered = s.depth != 0.0;
+    if (!p.covered) return p;
+    p.surface.base = s.base.rgb;
+#if defined(GBUFFER_CLASSIC)
+    p.surface.metallic = s.material.r;
+    p.surface.roughness = s.material.g;
+    p.surface.occlusion = s.material.b;
+    p.surface.unlit = s.material.a > 0.0;
+    p.surface.normal = unit(s.normal);
+    EXACT vec3 relative = s.position - frame.camera_position;
     p.position = view_from_world(relative);
 #else
-    uint m = texelFetch(gbuffer_material, at, 0).r;
-    p.surface.metallic = material_metallic(m);
-    p.surface.roughness = material_roughness(m);
-    p.surface.occlusion = base.a;
-    p.surface.unlit = (material_flags(m) & PELLUCID_GBUFFER_UNLIT) != 0u;
-    p.surface.normal = octahedral_decode(texelFetch(gbuffer_normal, at, 0).r);
-    p.position = view_from_depth(vec2(at) + 0.5, depth);
+    p.surface.metallic = material_metallic(s.material);
+    p.surface.roughness = material_roughness(s.material);
+    p.surface.occlusion = s.base.a;
+    p.surface.unlit = (material_flags(s.material) & PELLUCID_GBUFFER_UNLIT) != 0u;
+    p.surface.normal = octahedral_decode(s.normal);
+    p.position = view_from_depth(vec2(at) + 0.5, s.depth);
 #endif
-    p.plane = needs(PELLUCID_NEED_SHADOWS) ? plane_normal(at, depth, p.surface.normal) : p.surface.normal;
-    p.surface.emissive = needs(PELLUCID_NEED_EMISSIVE) ? texelFetch(gbuffer_emissive, at, 0).rgb : vec3(0.0);
+    p.plane = needs(PELLUCID_NEED_SHADOWS) ? plane_normal(at, s.depth, p.surface.normal) : p.surface.normal;
+    p.surface.emissive = s.emissive;
     return p;
 }

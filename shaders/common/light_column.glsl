@@ -29,7 +29,7 @@ bool in_column(Column c, vec4 sphere) {
 // that are near an edge.
 bool in_slab(Column c, vec4 sphere, float far, float near) {
     vec2 w = vec2(far, near) * frame.clip_depth.z + frame.clip_depth.w;
-    vec2 scale = 1.0 / frame.clip_scale.xy, offset = frame.clip_scale.zw;
+    vec2 scale = frame.view_scale.xy, offset = frame.clip_scale.zw;
     vec2 a = (c.lower * w.x - offset) * scale, b = (c.lower * w.y - offset) * scale;
     vec2 d = (c.upper * w.x - offset) * scale, e = (c.upper * w.y - offset) * scale;
     vec3 lower = vec3(min(min(a, b), min(d, e)), far), upper = vec3(max(max(a, b), max(d, e)), near);

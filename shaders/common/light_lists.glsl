@@ -10,7 +10,7 @@ uint light_slice(float ez) {
     return uint(clamp(slice, 0.0, frame.light_slices.z));
 }
 
-// For `next_light` in common/lighting.glsl, of the point `p` (view space) that is seen in a pixel: the first words of
+// For `evaluate_lighting` in common/lighting.glsl, of the point `p` (view space) that is seen in a pixel: the first words of
 // the lists whose common bits are its lights.  Without lists: the end of its lights in y.
 uvec2 lights_at(ivec2 pixel, vec3 p, bool translucent) {
     if (needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) {

@@ -8,7 +8,8 @@ PUSH_BLOCK(Push) { LightVolumePush volume; };
 layout(location = 0) out vec4 out_light;
 
 void main() {
-    Pixel p = read_gbuffer(ivec2(gl_FragCoord.xy));
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    Pixel p = decode_gbuffer(at, fetch_gbuffer(at));
     out_light = vec4(0.0);
     if (!p.covered || (needs(PELLUCID_NEED_UNLIT) && p.surface.unlit)) return;
     Surface s = p.surface;

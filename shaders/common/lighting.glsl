@@ -22,7 +22,7 @@ LitPoint lit_point(ivec2 pixel, vec3 p, vec3 plane, bool translucent) {
 
 // Adds light `i`: of a point or spot light exactly nothing where its range or cone ends.
 void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metallic, vec3 p, vec3 plane) {
-    LightRecord light = lights[i];
+    LightRecord light = light_record(i);
     EXACT vec3 d = vec3(0.0);
     EXACT vec3 l = light.to_light;
     EXACT float strength = 1.0;
@@ -51,42 +51,36 @@ void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metall
     add_light(sum, s, base, metallic, l, n_l, illuminance);
 }
 
-// Walks the lights of a point in their order: directional ones, then those that are listed for it.  One loop with one
-// call of what a light does: drivers inline it at every place that calls it, and that is most of what they compile.
-struct LightWalk {
-    uint next;              // light, where there are no lists
-    uint summary, words;    // next word that summarises, what is left of the last one
-    uint word, bits;        // word of 32 lights, what is left of it
-};
-bool next_light(inout LightWalk walk, uvec2 lists, out uint i) {
-    i = walk.next;
-    if (needs(PELLUCID_NEED_DIRECTIONAL) && walk.next < frame.light_ends.x) {
-        ++walk.next;
-        return true;
-    }
-    if (!needs(PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) return false;
-    if (!needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS)) return walk.next++ < lists.y;
-    while (walk.bits == 0u) {
-        while (walk.words == 0u) {
-            if (walk.summary == frame.light_grid.w) return false;
-            walk.words = light_word(lists, walk.summary++);
+// Adds the lights whose bits both lists have: of 32 words that one word summarises, then of 32 lights a word.
+void add_listed_lights(inout LightSum sum, Shading s, vec3 base, float metallic, LitPoint at) {
+    uint summaries = frame.light_grid.w;
+    for (uint summary = 0u; summary < summaries; ++summary) {
+        uint words = light_word(at.lists, summary);
+        while (words != 0u) {
+            uint word = summary * 32u + uint(findLSB(words));
+            words &= words - 1u;
+            uint bits = light_word(at.lists, summaries + word);
+            while (bits != 0u) {
+                uint i = frame.light_ends.x + word * 32u + uint(findLSB(bits));
+                bits &= bits - 1u;
+                add_light_at(sum, i, s, base, metallic, at.p, at.plane);
+            }
         }
-        walk.word = (walk.summary - 1u) * 32u + uint(findLSB(walk.words));
-        walk.words &= walk.words - 1u;
-        walk.bits = light_word(lists, frame.light_grid.w + walk.word);
     }
-    i = frame.light_ends.x + walk.word * 32u + uint(findLSB(walk.bits));
-    walk.bits &= walk.bits - 1u;
-    return true;
 }
 
 // Radiance towards the eye of a surface at a point.
 vec3 evaluate_lighting(vec3 base, float metallic, float roughness, float occlusion, vec3 normal, LitPoint at) {
     Shading s = make_shading(base, metallic, roughness, normal, at.to_eye);
     LightSum sum = no_light();
-    LightWalk walk = LightWalk(0u, 0u, 0u, 0u, 0u);
-    uint i;
-    while (next_light(walk, at.lists, i)) add_light_at(sum, i, s, base, metallic, at.p, at.plane);
+    // Drivers inline what a light does at every place that asks for it, and that is most of what they compile: all
+    // lights that no list has are added in one place, directional ones first, as they are stored.
+    bool listed = needs(PELLUCID_NEED_LIGHT_TILES | PELLUCID_NEED_LIGHT_CLUSTERS);
+    if (!listed || needs(PELLUCID_NEED_DIRECTIONAL)) {
+        uint end = listed ? frame.light_ends.x : at.lists.y;
+        for (uint i = 0u; i < end; ++i) add_light_at(sum, i, s, base, metallic, at.p, at.plane);
+    }
+    if (listed) add_listed_lights(sum, s, base, metallic, at);
     EXACT vec3 radiance = reflected(sum, s);
     if (needs(PELLUCID_NEED_AMBIENT)) radiance = radiance + base * (frame.ambient * occlusion);
     if (needs(PELLUCID_NEED_SKY | PELLUCID_NEED_ENVIRONMENT))

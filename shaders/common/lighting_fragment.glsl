@@ -7,7 +7,7 @@ layout(location = 1) out vec4 out_layer_light;
 
 void main() {
     ivec2 at = ivec2(gl_FragCoord.xy);
-    out_hdr = shade_pixel(at);
+    out_hdr = shade_pixel(at, fetch_gbuffer(at));
 #if defined(LIGHTING_LAYERS)
     out_layer_light = shade_layer(at);
 #endif

@@ -33,6 +33,7 @@
 #define PASS_BUFFER(b, name) layout(PELLUCID_SET(1, b), std430) buffer name
 #define PASS_TEXTURE(b) layout(PELLUCID_SET(1, b)) uniform
 #define PASS_IMAGE(b, format) layout(PELLUCID_SET(1, b), format) uniform
+#define SCENE_UNIFORMS(b, name) layout(PELLUCID_SET(2, b), std140) uniform name
 #define SCENE_BUFFER_READ(b, name) layout(PELLUCID_SET(2, b), std430) readonly buffer name
 #define SCENE_TEXTURE(b) layout(PELLUCID_SET(2, b)) uniform
 

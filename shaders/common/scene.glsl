@@ -16,6 +16,7 @@ SCENE_BUFFER_READ(PELLUCID_BIND_VERTICES, VertexBuffer) { Vertex vertices[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_INDICES, IndexBuffer) { uint indices[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_MATERIALS, MaterialBuffer) { MaterialRecord materials[]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_LIGHTS, LightBuffer) { LightRecord lights[]; };
+SCENE_UNIFORMS(PELLUCID_BIND_LIGHT_BLOCK, LightBlock) { LightRecord first_lights[PELLUCID_LIGHT_BLOCK]; };
 SCENE_BUFFER_READ(PELLUCID_BIND_LIGHT_LISTS, LightListBuffer) { uint light_lists[]; };
 
 // Object space → view space.
@@ -55,9 +56,9 @@ vec3 view_from_depth(vec2 fragcoord, float depth) {
     precise float ny = fragcoord.y * frame.pixel.y;
     ny = 1.0 - ny;
     precise float ex = nx * w;
-    ex = (ex - frame.clip_scale.z) * (1.0 / frame.clip_scale.x);
+    ex = (ex - frame.clip_scale.z) * frame.view_scale.x;
     precise float ey = ny * w;
-    ey = (ey - frame.clip_scale.w) * (1.0 / frame.clip_scale.y);
+    ey = (ey - frame.clip_scale.w) * frame.view_scale.y;
     return vec3(ex, ey, ez);
 }
 
@@ -65,6 +66,11 @@ vec3 view_from_depth(vec2 fragcoord, float depth) {
 vec3 direction_to_eye(vec3 p) {
     if (frame.clip_depth.z == 0.0) return vec3(0.0, 0.0, 1.0);
     return unit(-p);
+}
+
+LightRecord light_record(uint i) {
+    if (needs(PELLUCID_NEED_LIGHT_BLOCK)) return first_lights[i];
+    return lights[i];
 }
 
 vec4 unpack_color(uvec2 color) { return vec4(unpackUnorm2x16(color.x), unpackUnorm2x16(color.y)); }

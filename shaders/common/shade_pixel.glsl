@@ -14,8 +14,8 @@ vec3 background_radiance(ivec2 at) {
     return min(environment_light(-direction_to_eye(p), 0.0), vec3(65504.0));
 }
 
-vec4 shade_pixel(ivec2 at) {
-    Pixel p = read_gbuffer(at);
+vec4 shade_pixel(ivec2 at, Stored stored) {
+    Pixel p = decode_gbuffer(at, stored);
     if (!p.covered) return vec4(background_radiance(at), 1.0);
     Surface s = p.surface;
     EXACT vec3 radiance = s.emissive;

@@ -6,7 +6,7 @@
 #include "pellucid/gpu/lighting.h"
 #include "pellucid/gpu/light_volumes.h"
 
-layout(local_size_x = PELLUCID_LIGHTING_TILE_SIZE, local_size_y = PELLUCID_LIGHTING_TILE_SIZE) in;
+layout(local_size_x = PELLUCID_LIGHTING_GROUP_SIZE, local_size_y = PELLUCID_LIGHTING_GROUP_SIZE) in;
 PASS_IMAGE(PELLUCID_VOLUMES_TARGET, rgba16f) image2D picture;
 PASS_TEXTURE(PELLUCID_VOLUMES_SUM) sampler2D sum;
 

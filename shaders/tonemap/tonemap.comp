@@ -12,7 +12,7 @@ SPEC_CONSTANT(2, CURVE, PELLUCID_TONEMAP_NEUTRAL);
 FRAME_BLOCK(FrameBlock) { FrameParams frame; };
 PASS_TEXTURE(PELLUCID_TONEMAP_INPUT) sampler2D hdr;
 PASS_IMAGE(PELLUCID_TONEMAP_OUTPUT, rgba8) writeonly image2D display;
-layout(local_size_x = 8, local_size_y = 8) in;
+layout(local_size_x = PELLUCID_TONEMAP_GROUP_SIZE, local_size_y = PELLUCID_TONEMAP_GROUP_SIZE) in;
 
 // Khronos PBR Neutral: exact base colour below 0.76, C1, hue kept.
 vec3 neutral(vec3 c) {

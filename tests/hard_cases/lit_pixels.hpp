@@ -43,12 +43,7 @@ template <rhi::Backend B>
     settings.keep_gbuffer = true;
     const auto shot = shoot<B>(device, scene, camera, settings);
     const std::vector<reference::CompactTexel> texels = shot.compact();
-    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
-    std::vector<Light> lights = scene.lights;
-    for (Light& light : lights) {
-        light.position = glm::dvec3(view_from_world * glm::dvec4(light.position, 1));
-        light.direction = glm::dvec3(view_from_world * glm::dvec4(light.direction, 0));
-    }
+    const std::vector<Light> lights = reference::lights_in_view(scene.lights, camera);
     Camera eye = camera;
     eye.world_from_view = glm::dmat4(1);
     const reference::ClipCoefficients<double> clip(clip_from_view(camera, settings.size));

@@ -20,6 +20,7 @@ gpu::FrameParams frame_params(const Camera& camera) {
     auto narrow = [](double v) { return static_cast<float>(v); };
     f.clip_scale = {narrow(c.sx), narrow(c.sy), narrow(c.ox), narrow(c.oy)};
     f.clip_depth = {narrow(c.zz), narrow(c.zw), narrow(c.wz), narrow(c.ww)};
+    f.view_scale = {narrow(1 / c.sx), narrow(1 / c.sy), 0, 0};
     f.pixel = {2.0f / size.width, 2.0f / size.height, narrow(size.width), narrow(size.height)};
     return f;
 }

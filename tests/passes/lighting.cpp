@@ -2,23 +2,14 @@
 // Deferred lighting against the double reference, for the surface that the G-buffer really holds; every variant of the
 // pass; and the same bits on both backends where they are promised.
 #include <cstring>
-#include "support/scene.hpp"
+#include "reference/sampling.hpp"
+#include "support/light_cases.hpp"
 #include "support/srgb_table.hpp"
 
 using namespace pellucid;
 
 namespace {
 constexpr std::uint32_t n = 128;
-
-/// Lights in view space, as the pass has them.
-std::vector<Light> in_view(std::vector<Light> lights, const Camera& camera) {
-    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
-    for (Light& light : lights) {
-        light.position = glm::dvec3(view_from_world * glm::dvec4(light.position, 1));
-        light.direction = glm::dvec3(view_from_world * glm::dvec4(light.direction, 0));
-    }
-    return lights;
-}
 
 struct LightingError {
     double below = 0, above = 0;  ///< largest (reference - value) and (value - reference), over max(1e-3, reference)
@@ -31,7 +22,7 @@ struct LightingError {
 LightingError lighting_error(const ImageF& hdr, const std::vector<reference::CompactTexel>& texels, const Scene& scene,
                              const Camera& camera, const std::array<float, 256>& linear, Brdf brdf = Brdf::gltf) {
     const Extent2D size{hdr.width, hdr.height};
-    const std::vector<Light> lights = in_view(scene.lights, camera);
+    const std::vector<Light> lights = reference::lights_in_view(scene.lights, camera);
     const reference::ClipCoefficients<double> clip(clip_from_view(camera, size));
     Camera eye = camera;
     eye.world_from_view = glm::dmat4(1);
@@ -177,6 +168,30 @@ TEMPLATE_LIST_TEST_CASE("a scene far from the origin is lit as it is at the orig
         moved += std::abs(here.data[i] - there.hdr.data[i]) > 2 * half_step * std::max(1e-3f, std::abs(here.data[i]));
     std::printf("%s: %zu of %zu values moved by an offset of 1.3e5 m\n", TestType::name, moved, here.data.size());
     CHECK(moved <= here.data.size() / 1000);  // silhouettes
+}
+
+TEMPLATE_LIST_TEST_CASE("lights of the uniform block and of the storage buffer give the same picture", "[gpu]",
+                        test::Backends) {
+    const auto device = test::make_device<TestType>();
+    if (!device) return;
+    Scene scene = test::varied_scene();
+    test::Random random(5);
+    while (scene.lights.size() < PELLUCID_LIGHT_BLOCK)
+        scene.lights.push_back({.color = {1, 0.7f, 0.4f},
+                                .intensity = 0.3f,
+                                .position = {random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(1, 4)}});
+    RenderSettings settings = test::settings_for(64);
+    settings.lighting = LightAssignment::loop;
+    settings.exact = true;
+    CHECK(scene_needs(scene, settings).has(PELLUCID_NEED_LIGHT_BLOCK));
+    const ImageF block = test::shoot<TestType>(*device, scene, test::varied_camera(), settings).hdr;
+    // One more that gives nothing: the block has no room for it.
+    scene.lights.push_back({.intensity = 0, .position = {0, 0, 5}});
+    CHECK_FALSE(scene_needs(scene, settings).has(PELLUCID_NEED_LIGHT_BLOCK));
+    const ImageF stored = test::shoot<TestType>(*device, scene, test::varied_camera(), settings).hdr;
+    CHECK(test::different_pixels(block, stored) == 0);
+    scene.lights.clear();
+    CHECK_FALSE(scene_needs(scene, {.size = settings.size, .default_light = false}).has(PELLUCID_NEED_LIGHT_BLOCK));
 }
 
 #if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)

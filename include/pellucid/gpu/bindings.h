@@ -21,6 +21,7 @@
 #define PELLUCID_BIND_DRAWS 27
 #define PELLUCID_BIND_LIGHTS 28
 #define PELLUCID_BIND_LIGHT_LISTS 29
+#define PELLUCID_BIND_LIGHT_BLOCK 30  // uniform block: the first lights
 #define PELLUCID_BIND_TEXTURES 32     // 32 … 39: texture arrays
 #define PELLUCID_BIND_SHADOW_MAPS 40  // layers of depth (gpu/shadow_map.h)
 #define PELLUCID_BIND_SHADOWS 41      // storage block: ShadowRecord a map

@@ -3,6 +3,7 @@
 #ifndef PELLUCID_GPU_LIGHTING_H
 #define PELLUCID_GPU_LIGHTING_H
 #include "pellucid/gpu/gbuffer.h"
-#define PELLUCID_LIGHTING_OUTPUT 0     // storage image, rgba16f: linear radiance
-#define PELLUCID_LIGHTING_TILE_SIZE 8  // workgroup edge [pixel]
+#define PELLUCID_LIGHTING_OUTPUT 0      // storage image, rgba16f: linear radiance
+#define PELLUCID_LIGHTING_GROUP_SIZE 8  // workgroup edge [thread]
+#define PELLUCID_LIGHTING_PIXELS 4      // that a thread lights, one below the other
 #endif

@@ -34,6 +34,7 @@
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
 #define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
+#define PELLUCID_NEED_LIGHT_BLOCK 1048576u  // no lists, and all lights are in the uniform block
 // What a setting asks for.
 #define PELLUCID_NEED_SKY 65536u           // the procedural sky shines
 #define PELLUCID_NEED_ENVIRONMENT 131072u  // a picture of an environment shines
@@ -58,6 +59,7 @@ struct FrameParams {
     vec4 world_z;
     vec4 clip_scale;  // sx, sy, ox, oy of ClipFromView
     vec4 clip_depth;  // zz, zw, wz, ww of ClipFromView
+    vec4 view_scale;  // 1/sx, 1/sy; z, w unused
     vec4 pixel;       // 2/width, 2/height, width, height
     vec3 ambient;     // [cd/m²] constant radiance from everywhere
     float exposure;   // factor before the tone map
@@ -71,9 +73,9 @@ struct FrameParams {
     uvec4 light_grid;   // tiles in a row, lists a tile, words a list, words of a list that summarise the others
     vec4 light_slices;  // slice = log2(distance along the view) x + y, in 0 … z
 };
-PELLUCID_GPU_SIZE(FrameParams, 192)
-PELLUCID_GPU_OFFSET(FrameParams, ambient, 96)
-PELLUCID_GPU_OFFSET(FrameParams, light_ends, 144)
+PELLUCID_GPU_SIZE(FrameParams, 208)
+PELLUCID_GPU_OFFSET(FrameParams, ambient, 112)
+PELLUCID_GPU_OFFSET(FrameParams, light_ends, 160)
 
 // Group 0, binding PELLUCID_BIND_RECORDS: one an instance, in draw order; the base instance is its index.
 struct DrawRecord {
@@ -141,7 +143,9 @@ struct MaterialRecord {
 PELLUCID_GPU_SIZE(MaterialRecord, 224)
 PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 
-// Scene group, PELLUCID_BIND_LIGHTS: in the order of FrameParams::light_ends.
+// Scene group, PELLUCID_BIND_LIGHTS: in the order of FrameParams::light_ends.  Where PELLUCID_LIGHT_BLOCK or fewer are
+// looped over they are read from the uniform block, PELLUCID_BIND_LIGHT_BLOCK, which GPUs read faster.
+#define PELLUCID_LIGHT_BLOCK 64
 struct LightRecord {
     vec3 position;                // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited

@@ -36,6 +36,7 @@ struct SceneBinding {
                              {PELLUCID_BIND_MATERIALS, storage_buffer},
                              {PELLUCID_BIND_LIGHTS, storage_buffer},
                              {PELLUCID_BIND_LIGHT_LISTS, storage_buffer},
+                             {PELLUCID_BIND_LIGHT_BLOCK, uniform_buffer},
                              {PELLUCID_BIND_SHADOW_MAPS, sampled_texture},
                              {PELLUCID_BIND_SHADOWS, storage_buffer}}};
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i)

@@ -236,7 +236,7 @@ void LightVolumesPass<B>::record(typename B::Commands& cmd, const SceneBinding& 
          .name = "light_volumes.add"});
     cmd.bind_pipeline(add_);
     cmd.bind_group(add_group_);
-    constexpr std::uint32_t tile = PELLUCID_LIGHTING_TILE_SIZE;
+    constexpr std::uint32_t tile = PELLUCID_LIGHTING_GROUP_SIZE;
     cmd.dispatch((size_.width + tile - 1) / tile, (size_.height + tile - 1) / tile, 1);
     cmd.end_compute();
 }

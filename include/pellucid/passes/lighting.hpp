@@ -4,6 +4,7 @@
 /// Deferred lighting: every light of the scene at every covered pixel, by a loop, in a compute or a fragment shader.
 #include <pellucid/gpu/interleaved.h>
 #include <pellucid/gpu/lighting.h>
+#include <pellucid/passes/full_screen.hpp>
 #include <pellucid/passes/gbuffer.hpp>
 #include <pellucid/shaders/full_screen.hpp>
 #include <pellucid/shaders/lighting.hpp>
@@ -117,13 +118,7 @@ Result<LightingPass<B>> LightingPass<B>::create(typename B::Device& device, cons
     pass.stage_ = desc.stage;
     const bool compute = desc.stage == ShadingStage::compute;
     const bool compact = desc.layout == GBufferLayout::compact;
-    PELLUCID_OWN(pass.sampler_, device,
-                 device.make_sampler({.min = rhi::Filter::nearest,
-                                      .mag = rhi::Filter::nearest,
-                                      .mipmapped = false,
-                                      .wrap_u = rhi::Wrap::clamp,
-                                      .wrap_v = rhi::Wrap::clamp,
-                                      .debug_name = "lighting.gbuffer"}));
+    PELLUCID_OWN(pass.sampler_, device, device.make_sampler(texel_sampler("lighting.gbuffer")));
     rhi::GroupDesc group =
         detail::gbuffer_group(gbuffer, desc.emissive, pass.sampler_, compute ? hdr : rhi::Texture{}, "lighting");
     if (layers.output) {
@@ -190,8 +185,8 @@ void LightingPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
     cmd.bind_group(group_);
     cmd.bind_group(scene.group);
     if (compute) {
-        constexpr std::uint32_t tile = PELLUCID_LIGHTING_TILE_SIZE;
-        cmd.dispatch((size_.width + tile - 1) / tile, (size_.height + tile - 1) / tile, 1);
+        constexpr std::uint32_t width = PELLUCID_LIGHTING_GROUP_SIZE, height = width * PELLUCID_LIGHTING_PIXELS;
+        cmd.dispatch((size_.width + width - 1) / width, (size_.height + height - 1) / height, 1);
         cmd.end_compute();
     } else {
         cmd.draw({.vertex_count = 3});

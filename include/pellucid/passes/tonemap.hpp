@@ -4,8 +4,7 @@
 /// The last pass: exposure, tone curve, sRGB encoding to 8 bits.
 #include <pellucid/gpu/bindings.h>
 #include <pellucid/gpu/tonemap.h>
-#include <pellucid/rhi/backend.hpp>
-#include <pellucid/rhi/unique.hpp>
+#include <pellucid/passes/full_screen.hpp>
 #include <pellucid/shaders/tonemap.hpp>
 
 namespace pellucid {
@@ -52,11 +51,7 @@ Result<TonemapPass<B>> TonemapPass<B>::create(typename B::Device& device, ToneCu
     pass.size_ = size;
     const rhi::GroupLayout layout{{{PELLUCID_TONEMAP_OUTPUT, rhi::BindingKind::storage_texture},
                                    {PELLUCID_TONEMAP_INPUT, rhi::BindingKind::sampled_texture}}};
-    PELLUCID_OWN(pass.sampler_, device,
-                 device.make_sampler({.min = rhi::Filter::nearest,
-                                      .mag = rhi::Filter::nearest,
-                                      .mipmapped = false,
-                                      .debug_name = "tonemap.input"}));
+    PELLUCID_OWN(pass.sampler_, device, device.make_sampler(texel_sampler("tonemap.input")));
     PELLUCID_OWN(
         pass.group_, device,
         device.make_group({.slot = rhi::GroupSlot::pass,
@@ -79,7 +74,8 @@ void TonemapPass<B>::record(typename B::Commands& cmd, rhi::UniformSlice frame) 
     cmd.bind_pipeline(pipeline_);
     cmd.bind_frame(frame, {});
     cmd.bind_group(group_);
-    cmd.dispatch((size_.width + 7) / 8, (size_.height + 7) / 8, 1);
+    constexpr std::uint32_t tile = PELLUCID_TONEMAP_GROUP_SIZE;
+    cmd.dispatch((size_.width + tile - 1) / tile, (size_.height + tile - 1) / tile, 1);
     cmd.end_compute();
 }
 

@@ -13,6 +13,7 @@
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
 #include <span>
+#include <vector>
 
 namespace pellucid::reference {
 
@@ -48,6 +49,9 @@ struct LightSample {
     glm::dvec3 illuminance{0, 0, 0};  ///< [lx] at normal incidence, times the light's colour
 };
 
+/// `lights` with positions and directions in the view space of `camera`.
+[[nodiscard]] inline std::vector<Light> lights_in_view(std::vector<Light> lights, const Camera& camera);
+
 /// The light at `position` [m, world].  A point or spot light exactly at `position` has no direction and gives nothing.
 [[nodiscard]] inline LightSample sample_light(const Light& light, glm::dvec3 position) noexcept;
 
@@ -80,6 +84,15 @@ template <class Visible>
 }
 
 // ---------------------------------------------------------------------------------------------------- bodies
+
+inline std::vector<Light> lights_in_view(std::vector<Light> lights, const Camera& camera) {
+    const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
+    for (Light& light : lights) {
+        light.position = glm::dvec3(view_from_world * glm::dvec4(light.position, 1));
+        light.direction = glm::dvec3(view_from_world * glm::dvec4(light.direction, 0));
+    }
+    return lights;
+}
 
 double distance_falloff(double distance, double range) noexcept {
     const double nearest = std::max(distance, min_light_distance);

@@ -29,6 +29,7 @@ public:
     /// Index of the first light with a range.
     [[nodiscard]] std::uint32_t first_ranged() const noexcept { return ends_.y; }
     [[nodiscard]] rhi::Buffer records() const noexcept { return records_; }
+    [[nodiscard]] rhi::Buffer block() const noexcept { return block_; }
     [[nodiscard]] rhi::Buffer bounds() const noexcept { return bounds_; }
     [[nodiscard]] rhi::Buffer lists() const noexcept { return lists_; }
     [[nodiscard]] const LightGrid& grid() const noexcept { return grid_; }
@@ -36,6 +37,7 @@ public:
     template <class Add>
     void each_resource(Add&& add) const {
         add("scene.lights", record_data_.size() * sizeof(gpu::LightRecord));
+        add(looped_ ? "scene.light_block" : "scene.no_light_block", block_bytes);
         if (!grid_.empty()) {
             add("scene.light_bounds", bound_data_.size() * sizeof(gpu::vec4));
             add("scene.light_lists", list_bytes());
@@ -45,19 +47,21 @@ public:
     }
 
 private:
+    static constexpr std::uint64_t block_bytes = sizeof(gpu::LightRecord) * PELLUCID_LIGHT_BLOCK;
     /// There is always something to bind.
     [[nodiscard]] std::uint64_t list_bytes() const noexcept { return std::max<std::uint64_t>(16, grid_.bytes()); }
 
     std::vector<Light> sources_;
     std::vector<gpu::LightRecord> record_data_;
     std::vector<gpu::vec4> bound_data_;  ///< of lights with a place
-    rhi::Unique<typename B::Device, rhi::Buffer> records_, bounds_, lists_;
+    rhi::Unique<typename B::Device, rhi::Buffer> records_, block_, bounds_, lists_;
     LightGrid grid_;
     gpu::uvec4 ends_;
     gpu::vec4 slices_{1, 0, 0, 0};
     glm::dmat4 written_for_{1.0};
     bool written_ = false;
     bool ambient_ = false;
+    bool looped_ = false;  ///< the block is read
 };
 
 // ------------------------------------------------------------------------------------------------------- bodies
@@ -79,6 +83,7 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
             std::count_if(out.sources_.begin(), out.sources_.end(), [&](const Light& l) { return kind(l) <= last; }));
     };
     out.grid_ = needs.grid;
+    out.looped_ = needs.has(PELLUCID_NEED_LIGHT_BLOCK);
     out.ends_ = {up_to(0), up_to(1), up_to(2), static_cast<gpu::uint>(needs.grid.slice_words())};
     out.record_data_.resize(std::max<std::size_t>(1, out.sources_.size()));
     out.bound_data_.resize(std::max(1u, out.ends_.z - out.ends_.x));
@@ -95,6 +100,10 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
             {.size = size, .usage = storage | copy_destination | copy_source, .debug_name = debug_name});
     };
     PELLUCID_OWN(out.records_, device, make(out.record_data_.size() * sizeof(gpu::LightRecord), "scene.lights"));
+    PELLUCID_OWN(out.block_, device,
+                 device.make_buffer({.size = block_bytes,
+                                     .usage = rhi::BufferUsage::uniform | rhi::BufferUsage::copy_destination,
+                                     .debug_name = "scene.light_block"}));
     PELLUCID_OWN(out.lists_, device, make(bytes, "scene.light_lists"));
     if (!out.grid_.empty()) {
         PELLUCID_OWN(out.bounds_, device, make(out.bound_data_.size() * sizeof(gpu::vec4), "scene.light_bounds"));
@@ -112,9 +121,11 @@ void GpuLights<B>::update(typename B::Commands& cmd, const Camera& camera, const
     };
     for (std::size_t i = 0; i < sources_.size(); ++i) record_data_[i] = gpu_light(sources_[i], view_from_world);
     rhi::CopyPassDesc copy{.uses = {rhi::use(records_, rhi::Access::copy_write)}, .name = "lights"};
+    if (looped_) copy.uses.push_back(rhi::use(block_, rhi::Access::copy_write));
     if (!grid_.empty()) copy.uses.push_back(rhi::use(bounds_, rhi::Access::copy_write));
     cmd.begin_copy(copy);
     write(records_, rhi::bytes_of(std::span<const gpu::LightRecord>(record_data_)));
+    if (looped_) write(block_, rhi::bytes_of(std::span<const gpu::LightRecord>(record_data_)));
     if (!grid_.empty()) {
         double nearest = 1e30, farthest = 0;  // distances along the view that any light with a range reaches
         for (std::size_t i = ends_.x; i < sources_.size(); ++i) {

@@ -155,6 +155,8 @@ Result<void> GpuScene<B>::make_group(typename B::Device& device, rhi::Texture sh
     bind_buffer(PELLUCID_BIND_MATERIALS, materials_);
     bind_buffer(PELLUCID_BIND_LIGHTS, lights_->records());
     bind_buffer(PELLUCID_BIND_LIGHT_LISTS, lights_->lists());
+    group.bindings.push_back({.binding = PELLUCID_BIND_LIGHT_BLOCK, .buffer = lights_->block()});
+    binding.uses.push_back(rhi::use(lights_->block(), rhi::Access::uniform_read));
     for (std::uint32_t i = 0; i < PELLUCID_TEXTURE_ARRAYS; ++i) {
         const std::size_t at = std::min<std::size_t>(i, textures_.size() - 1);
         group.bindings.push_back(
@@ -250,6 +252,7 @@ Result<GpuScene<B>> GpuScene<B>::create(typename B::Device& device, const Scene&
     const ClipFromView clip = clip_from_view(camera, size);
     f.clip_scale = narrow(clip.sx, clip.sy, clip.ox, clip.oy);
     f.clip_depth = narrow(clip.zz, clip.zw, clip.wz, clip.ww);
+    f.view_scale = narrow(1 / clip.sx, 1 / clip.sy, 0, 0);
     f.pixel = narrow(2.0 / size.width, 2.0 / size.height, size.width, size.height);
     f.camera_position = to_gpu(glm::dvec3(w[3]));
     return f;

@@ -127,6 +127,8 @@ inline void assign_lights(SceneNeeds& needs, const RenderSettings& settings, std
                   : needs.assignment == clustered ? PELLUCID_NEED_LIGHT_CLUSTERS
                   : needs.assignment == volumes   ? PELLUCID_NEED_LIGHT_VOLUMES
                                                   : 0u;
+    if (needs.grid.empty() && needs.lights > 0 && needs.lights <= PELLUCID_LIGHT_BLOCK)
+        needs.mask |= PELLUCID_NEED_LIGHT_BLOCK;
 }
 
 /// Settles which lights have shadow maps, once all else is known.

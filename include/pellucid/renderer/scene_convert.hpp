@@ -168,11 +168,4 @@ inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
     r.flags = (r.flags & ~PELLUCID_DRAW_MIRRORED) | (determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u);
 }
 
-/// The inverse of a rigid matrix.
-[[nodiscard]] inline glm::dmat4 rigid_inverse(const glm::dmat4& m) {
-    const glm::dmat3 r = glm::transpose(glm::dmat3(m));
-    const glm::dvec3 t = -(r * glm::dvec3(m[3]));
-    return {glm::dvec4(r[0], 0), glm::dvec4(r[1], 0), glm::dvec4(r[2], 0), glm::dvec4(t, 1)};
-}
-
 }  // namespace pellucid

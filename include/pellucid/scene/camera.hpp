@@ -62,4 +62,11 @@ struct ClipFromView {
     return {glm::dvec4(right, 0), glm::dvec4(glm::cross(back, right), 0), glm::dvec4(back, 0), glm::dvec4(eye, 1)};
 }
 
+/// The inverse of a rigid matrix.
+[[nodiscard]] inline glm::dmat4 rigid_inverse(const glm::dmat4& m) {
+    const glm::dmat3 r = glm::transpose(glm::dmat3(m));
+    const glm::dvec3 t = -(r * glm::dvec3(m[3]));
+    return {glm::dvec4(r[0], 0), glm::dvec4(r[1], 0), glm::dvec4(r[2], 0), glm::dvec4(t, 1)};
+}
+
 }  // namespace pellucid
