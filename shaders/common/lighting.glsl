@@ -31,9 +31,12 @@ void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metall
         EXACT float d2 = max(dot3(d, d), 1e-6);
         EXACT float inverse = inversesqrt(d2);
         l = d * inverse;
-        EXACT float x = d2 * light.inverse_range_squared;
-        EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
-        strength = window * inverse;
+        strength = inverse;
+        if (needs(PELLUCID_NEED_LIGHT_RANGES)) {
+            EXACT float x = d2 * light.inverse_range_squared;
+            EXACT float window = clamp(1.0 - x * x, 0.0, 1.0);
+            strength = window * inverse;
+        }
         strength = strength * inverse;
         if (needs(PELLUCID_NEED_SPOTS) && light.spot_scale > 0.0) {
             // 1 - cos = |l - axis|²/2 keeps its bits where the cosine has lost them (narrow cones).
@@ -45,7 +48,11 @@ void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metall
         }
     }
     float n_l = dot3(s.normal, l);
-    if (!(n_l > 0.0 && strength > 0.0)) return;
+    // A branch costs more than adding nothing, unless most lights end before the point or a shadow would be looked up.
+    bool lit = n_l > 0.0 && strength > 0.0;
+    if (needs(PELLUCID_NEED_LIGHT_RANGES | PELLUCID_NEED_SPOTS | PELLUCID_NEED_SHADOWS) && !lit) return;
+    strength = lit ? strength : 0.0;
+    n_l = max(n_l, 0.0);
     EXACT vec3 illuminance = light.intensity * strength;
     if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, p, plane, -d);
     add_light(sum, s, base, metallic, l, n_l, illuminance);

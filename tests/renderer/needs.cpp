@@ -28,7 +28,8 @@ void texture(Scene& scene, TextureRef& ref) {
     ref.texture = 0;
 }
 std::uint32_t mask(const Scene& scene, const RenderSettings& settings = {}) {
-    return scene_needs(scene, settings).mask;
+    // Where lights are read from follows from their number (tests/passes/lighting.cpp).
+    return scene_needs(scene, settings).mask & ~PELLUCID_NEED_LIGHT_BLOCK;
 }
 
 const PassReport& pass(const RenderStats& stats, const std::string& name) {
@@ -88,6 +89,11 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
          },
          PELLUCID_NEED_VERTEX_COLORS},
         {"point light", [](Scene& s) { s.lights.push_back({.kind = LightKind::point}); }, PELLUCID_NEED_POINTS},
+        {"point light with a range",
+         [](Scene& s) {
+             s.lights.push_back({.kind = LightKind::point, .range = 4});
+         },
+         PELLUCID_NEED_POINTS | PELLUCID_NEED_LIGHT_RANGES},
         {"spot light", [](Scene& s) { s.lights.push_back({.kind = LightKind::spot}); }, PELLUCID_NEED_SPOTS}};
     for (const Case& c : cases) {
         Scene scene = plain();
@@ -95,7 +101,8 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
         INFO(c.what);
         CHECK(mask(scene) == (base | c.adds));
         scene.instances.clear();  // a material that is not drawn needs nothing
-        CHECK((mask(scene) & ~(PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS)) == 0u);
+        CHECK((mask(scene) & ~(PELLUCID_NEED_DIRECTIONAL | PELLUCID_NEED_POINTS | PELLUCID_NEED_SPOTS |
+                               PELLUCID_NEED_LIGHT_RANGES)) == 0u);
     }
     // Normals are wanted where light falls on a lit surface, or where somebody reads the G-buffer.
     Scene unlit = plain();

@@ -29,7 +29,8 @@
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
 #define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
-#define PELLUCID_NEED_ALL 8191u
+#define PELLUCID_NEED_LIGHT_RANGES 2097152u  // a light ends somewhere
+#define PELLUCID_NEED_ALL (8191u | PELLUCID_NEED_LIGHT_RANGES)
 // Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u

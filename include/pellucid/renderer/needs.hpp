@@ -196,6 +196,7 @@ inline void assign_shadows(SceneNeeds& needs, const Scene& scene, const RenderSe
         needs.placed += light.kind == LightKind::directional ? 0 : 1;
         needs.ranged += light.kind != LightKind::directional && reaches_an_end(light) ? 1 : 0;
     }
+    mark(PELLUCID_NEED_LIGHT_RANGES, needs.ranged > 0);
     needs.lights = static_cast<std::uint32_t>(scene.lights.size());
     const EnvironmentKind environment = settings.environment.kind;
     if (gets_default_sun(scene, settings)) {
