@@ -98,7 +98,7 @@ LightSum no_light() { return LightSum(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0)
 void add_ggx(inout LightSum sum, Shading s, vec3 l, float n_l, vec3 illuminance) {
     EXACT vec3 h = s.view + l;
     EXACT float hh = dot3(h, h);
-    if (hh < 1e-12) illuminance = vec3(0.0);  // L = -V: the lobe means nothing, but is finite
+    if (hh < 1e-12) return;
     EXACT vec3 c = cross3(s.normal, h);
     EXACT float nh = s.n_dot_v + n_l;
     EXACT float q = nh * nh;
@@ -176,8 +176,7 @@ vec3 reflect_blinn_phong(Shading s, vec3 l, float n_l) {
     return r * n_l;
 }
 
-// Adds a light to what was summed so far.  `l`: towards it; `n_l`: N·L, at least 0.  No illuminance adds
-// exactly nothing.
+// Adds a light to what was summed so far.  `l`: towards it; N·L > 0.
 void add_light(inout LightSum sum, Shading s, vec3 base, float metallic, vec3 l, float n_l, vec3 illuminance) {
     if (BRDF == PELLUCID_BRDF_GLTF || BRDF == PELLUCID_BRDF_CONSERVING) {
         add_ggx(sum, s, l, n_l, illuminance);

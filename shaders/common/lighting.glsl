@@ -48,11 +48,7 @@ void add_light_at(inout LightSum sum, uint i, Shading s, vec3 base, float metall
         }
     }
     float n_l = dot3(s.normal, l);
-    // A branch costs more than adding nothing, unless most lights end before the point or a shadow would be looked up.
-    bool lit = n_l > 0.0 && strength > 0.0;
-    if (needs(PELLUCID_NEED_LIGHT_RANGES | PELLUCID_NEED_SPOTS | PELLUCID_NEED_SHADOWS) && !lit) return;
-    strength = lit ? strength : 0.0;
-    n_l = max(n_l, 0.0);
+    if (!(n_l > 0.0 && strength > 0.0)) return;
     EXACT vec3 illuminance = light.intensity * strength;
     if (needs(PELLUCID_NEED_SHADOWS)) illuminance = illuminance * shadow_light(i, p, plane, -d);
     add_light(sum, s, base, metallic, l, n_l, illuminance);
