@@ -21,17 +21,13 @@ struct Lit {
     std::string name;
     Scene scene;
     glm::vec3 background{0, 0, 0};
-    /// Most look at what is opaque alone: pipelines of the exact methods take long to build.
-    Transparency transparency = Transparency::none;
 };
 /// With the lit scene of known answer, where it is there.
 std::vector<Lit> lit_scenes() {
     std::vector<Lit> out;
     if (const auto folder = test::scenes())
-        out.push_back({"L1",
-                       test::must(load_gltf((*folder / "L1_lit.gltf").string())),
-                       {0.03921569f, 0.03921569f, 0.05098039f},
-                       Transparency::abuffer});
+        out.push_back(
+            {"L1", test::must(load_gltf((*folder / "L1_lit.gltf").string())), {0.03921569f, 0.03921569f, 0.05098039f}});
     out.push_back({"demo", make_demo_scene()});
     out.push_back({"lit glass", make_lit_glass(3)});
     out.push_back({"light field", make_light_field({.lights = 120, .overlap = 8})});
@@ -58,7 +54,7 @@ measure::ImageError error_of(typename B::Device& device, const Lit& lit, const R
 
 RenderSettings lit_settings(const Lit& lit) {
     RenderSettings settings = test::settings_for(96);
-    settings.transparency = lit.transparency;
+    settings.transparency = Transparency::abuffer;
     settings.background = lit.background;
     settings.keep_gbuffer = false;
     return settings;
@@ -76,7 +72,6 @@ TEMPLATE_LIST_TEST_CASE("lighting: every way of finding lights gives the referen
                                                          {.size = settings.size,
                                                           .background = glm::dvec3(lit.background),
                                                           .lights = lit.scene.lights,
-                                                          .translucent = lit.transparency != Transparency::none,
                                                           .stability = true}));
         for (const LightAssignment method : every_assignment) {
             settings.lighting = method;
@@ -104,7 +99,6 @@ TEMPLATE_LIST_TEST_CASE("lighting: every model and environment gives the referen
                                                               .lights = lit.scene.lights,
                                                               .brdf = static_cast<reference::BrdfModel>(brdf),
                                                               .environment = settings.environment,
-                                                              .translucent = false,
                                                               .stability = true}));
             const measure::ImageError e = error_of<TestType>(*device, lit, settings, wanted);
             std::printf("%s, %s, %s on %s: scaled RMSE %.3g, max %.3g\n", lit.name.c_str(), name(brdf), name(kind),
