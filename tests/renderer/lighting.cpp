@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: MIT
-// Lit scenes by every way of finding lights, and by every model and environment, against the reference renderer.
-#include <pellucid/measure/coverage.hpp>
-#include <pellucid/reference/renderer.hpp>
+// Lit scenes by every way of finding lights, against the reference renderer and between the backends.
 #include <pellucid/scene/demo_scene.hpp>
 #include <pellucid/scene/gltf.hpp>
 #include <pellucid/scene/image_file.hpp>
 #include <pellucid/scene/light_field.hpp>
 #include <pellucid/scene/sample_scenes.hpp>
 #include "support/assets.hpp"
-#include "support/scene.hpp"
+#include "support/lit_scenes.hpp"
 
 using namespace pellucid;
+using test::error_of, test::Lit, test::lit_settings;
 
 namespace {
 
 constexpr LightAssignment every_assignment[] = {LightAssignment::loop, LightAssignment::volumes, LightAssignment::tiled,
                                                 LightAssignment::clustered, LightAssignment::automatic};
 
-struct Lit {
-    std::string name;
-    Scene scene;
-    glm::vec3 background{0, 0, 0};
-};
 /// With the lit scene of known answer, where it is there.
 std::vector<Lit> lit_scenes() {
     std::vector<Lit> out;
@@ -35,29 +29,6 @@ std::vector<Lit> lit_scenes() {
     out.push_back({"demo, lights with ranges", make_demo_scene()});
     for (Light& light : out.back().scene.lights) light.range = 6;
     return out;
-}
-
-/// Scaled RMSE and largest error in the pixels that no small move of the sample changes.
-template <rhi::Backend B>
-measure::ImageError error_of(typename B::Device& device, const Lit& lit, const RenderSettings& settings,
-                             const reference::Picture& wanted) {
-    const ImageF hdr = test::shoot<B>(device, lit.scene, lit.scene.cameras.front(), settings).hdr;
-    ImageF rgb(hdr.width, hdr.height, 3);
-    for (std::size_t i = 0; i < rgb.data.size() / 3; ++i)
-        std::copy_n(hdr.data.data() + 4 * i, 3, rgb.data.data() + 3 * i);
-    const auto error =
-        test::must(measure::coverage_error(rgb, wanted.radiance, wanted.stable, measure::ErrorScale::scaled));
-    CHECK(error.stable_pixels > settings.size.width * settings.size.height / 2);
-    CHECK(error.stable.nonfinite + error.unstable.nonfinite == 0);
-    return error.stable;
-}
-
-RenderSettings lit_settings(const Lit& lit) {
-    RenderSettings settings = test::settings_for(96);
-    settings.transparency = Transparency::abuffer;
-    settings.background = lit.background;
-    settings.keep_gbuffer = false;
-    return settings;
 }
 
 }  // namespace
@@ -82,30 +53,6 @@ TEMPLATE_LIST_TEST_CASE("lighting: every way of finding lights gives the referen
             CHECK(e.rmse <= 0.003);
         }
     }
-}
-
-TEMPLATE_LIST_TEST_CASE("lighting: every model and environment gives the reference's picture", "[gpu]",
-                        test::Backends) {
-    const auto device = test::make_device<TestType>();
-    if (!device) return;
-    const Lit lit{"demo", make_demo_scene()};
-    for (const EnvironmentKind kind : {EnvironmentKind::none, EnvironmentKind::sky})
-        for (const Brdf brdf : {Brdf::gltf, Brdf::conserving, Brdf::seed, Brdf::blinn_phong}) {
-            RenderSettings settings = lit_settings(lit);
-            settings.brdf = brdf;
-            settings.environment.kind = kind;
-            const auto wanted = test::must(reference::render(lit.scene, lit.scene.cameras.front(),
-                                                             {.size = settings.size,
-                                                              .lights = lit.scene.lights,
-                                                              .brdf = static_cast<reference::BrdfModel>(brdf),
-                                                              .environment = settings.environment,
-                                                              .stability = true}));
-            const measure::ImageError e = error_of<TestType>(*device, lit, settings, wanted);
-            std::printf("%s, %s, %s on %s: scaled RMSE %.3g, max %.3g\n", lit.name.c_str(), name(brdf), name(kind),
-                        TestType::name, e.rmse, e.max);
-            INFO(name(brdf) << ", " << name(kind));
-            CHECK(e.rmse <= 0.003);
-        }
 }
 
 #if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
