@@ -71,13 +71,13 @@ endwhile()
 file(WRITE ${OUTPUT} "// Built from ${LABEL}; do not edit.
 #pragma once
 #include <pellucid/rhi/shader.hpp>
-namespace pellucid::shaders::data {
+namespace pellucid::inline v0_1::shaders::data {
 inline constexpr std::uint32_t ${NAME}_vk[] = ${vulkan};
 inline constexpr std::uint32_t ${NAME}_gl[] = ${opengl};
 inline constexpr char ${NAME}_text[] =
 ${literals};
 }
-namespace pellucid::shaders {
+namespace pellucid::inline v0_1::shaders {
 PELLUCID_SHADER_DEFINE(${NAME}) = {::pellucid::rhi::ShaderStage::${STAGE}, data::${NAME}_vk, data::${NAME}_gl,
     ::std::string_view(data::${NAME}_text, sizeof data::${NAME}_text - 1), \"${LABEL}\"};
 }

@@ -72,7 +72,7 @@ function(pellucid_add_shader target stem)
 #define PELLUCID_SHADER_DEFINE(name) inline const ::pellucid::rhi::Shader name
 @definitions@#undef PELLUCID_SHADER_DEFINE
 #else
-namespace pellucid::shaders {
+namespace pellucid::inline v0_1::shaders {
 @declarations@}
 #endif
 ")

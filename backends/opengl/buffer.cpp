@@ -4,7 +4,7 @@
 #include "pellucid/opengl/device.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 namespace {
 

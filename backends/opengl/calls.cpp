@@ -9,7 +9,7 @@
 
 #include "functions.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 /// The thunk of the function behind epoxy's pointer variable `*slot`.

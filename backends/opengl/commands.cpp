@@ -6,7 +6,7 @@
 
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 void Commands::set_fixed_state() {
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);

@@ -9,7 +9,7 @@
 
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 bool has_word(const char* words, std::string_view word) {

@@ -7,7 +7,7 @@
 #include "pellucid/opengl/commands.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 /// Level `mip` of a texture: width and height.

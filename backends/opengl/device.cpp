@@ -11,7 +11,7 @@
 #include "program_cache.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 std::string gl_string(GLenum what) {

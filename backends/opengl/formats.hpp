@@ -5,7 +5,7 @@
 #include <pellucid/opengl/calls.hpp>
 #include <pellucid/rhi/format.hpp>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 struct GlFormat {
     GLenum internal = 0;

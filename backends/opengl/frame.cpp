@@ -4,7 +4,7 @@
 #include "program_cache.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 Error Device::lost_error() const {
     return {Errc::device_lost,

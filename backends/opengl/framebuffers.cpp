@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pellucid/opengl/framebuffers.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 constexpr std::size_t depth_part = rhi::max_color_attachments;

@@ -6,7 +6,7 @@
 #include "pellucid/opengl/device.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 Error wrong_pipeline(const char* debug_name, const std::string& what) {

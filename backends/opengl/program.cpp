@@ -7,7 +7,7 @@
 #include "spirv.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 constexpr GLenum stages[] = {GL_VERTEX_SHADER, GL_FRAGMENT_SHADER, GL_COMPUTE_SHADER};

@@ -9,7 +9,7 @@
 
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 constexpr char magic[4] = {'P', 'G', 'L', '1'};

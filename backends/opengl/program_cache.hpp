@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// 128 bits of FNV-1a (two streams): names the sources and constants of a program.
 class ProgramKey {

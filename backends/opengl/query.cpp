@@ -2,7 +2,7 @@
 #include "pellucid/opengl/device.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 Result<rhi::Queries> Device::make_queries(const rhi::QueriesDesc& desc) {
     PELLUCID_CHECK(enter());

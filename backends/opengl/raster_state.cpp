@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pellucid/opengl/raster_state.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 GLenum gl(rhi::Compare compare) {

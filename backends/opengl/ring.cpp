@@ -3,7 +3,7 @@
 
 #include <bit>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 bool Ring::start(const char* debug_name, bool label) {
     debug_name_ = debug_name;

@@ -2,7 +2,7 @@
 // Source of the numbers: SPIR-V specification 1.0, sections 2.3 (physical layout), 3.20 and 3.32.
 #include "spirv.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 std::vector<rhi::SpecConstant> declared_constants(std::span<const std::uint32_t> spirv) {
     constexpr std::size_t header_words = 5;

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// Ids with their default values, in the module's order.  32-bit scalars only; a broken module gives fewer.
 [[nodiscard]] std::vector<rhi::SpecConstant> declared_constants(std::span<const std::uint32_t> spirv);

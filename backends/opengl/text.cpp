@@ -4,7 +4,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 std::string text(const char* format, ...) {
     va_list arguments;

@@ -5,7 +5,7 @@
 #include <pellucid/core/result.hpp>
 #include <string>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// `printf` into a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);

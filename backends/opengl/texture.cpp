@@ -6,7 +6,7 @@
 #include "pellucid/opengl/device.hpp"
 #include "text.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 std::uint64_t all_texels_bytes(const rhi::TextureDesc& desc) {

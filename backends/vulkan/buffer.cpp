@@ -2,7 +2,7 @@
 #include <cstring>
 #include <pellucid/vulkan/device.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 VkBufferUsageFlags to_usage(rhi::BufferUsage usage) {

@@ -7,7 +7,7 @@
 #include <memory>
 #include <pellucid/vulkan/context.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 struct Envelope {

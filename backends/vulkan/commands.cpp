@@ -2,7 +2,7 @@
 // Passes, the barriers where they begin, and the less frequent state changes.
 #include <pellucid/vulkan/commands.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 constexpr VkPipelineStageFlags2 graphics_shaders =

@@ -5,7 +5,7 @@
 #include <vulkan/vulkan_core.h>
 #include <pellucid/rhi/desc.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 [[nodiscard]] constexpr VkFormat to_vulkan(rhi::Format format) {
     constexpr VkFormat table[] = {VK_FORMAT_UNDEFINED,           VK_FORMAT_R8_UNORM,   VK_FORMAT_R8G8B8A8_UNORM,

@@ -4,7 +4,7 @@
 #include <pellucid/vulkan/commands.hpp>
 #include "convert.hpp"
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 VkBufferImageCopy region_of(const TextureObject& texture, const rhi::TextureCopy& region) {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <pellucid/vulkan/device.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 /// Memory callbacks of the sub-allocator; `user` is the Context.

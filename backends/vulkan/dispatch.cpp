@@ -3,7 +3,7 @@
 #include <mutex>
 #include <pellucid/vulkan/dispatch.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 /// State of one set of counting thunks.

@@ -4,7 +4,7 @@
 #include <limits>
 #include <pellucid/vulkan/device.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 Result<void> Context::init_frames(std::uint32_t count) {
     const VkFenceCreateInfo info = {VK_STRUCTURE_TYPE_FENCE_CREATE_INFO};

@@ -5,7 +5,7 @@
 #include <pellucid/vulkan/device.hpp>
 #include "convert.hpp"
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 constexpr VkShaderStageFlags all_stages =

@@ -6,7 +6,7 @@
 #include <pellucid/vulkan/instance.hpp>
 #include <pellucid/vulkan/vulkan.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 constexpr const char* validation_layer = "VK_LAYER_KHRONOS_validation";
@@ -319,7 +319,7 @@ Result<Candidate> Instance::choose(const std::string& which) const {
 
 }  // namespace pellucid::vulkan
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 std::vector<rhi::DeviceInfo> Vulkan::list() {
     std::vector<rhi::DeviceInfo> infos;

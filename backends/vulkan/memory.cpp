@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <pellucid/vulkan/memory.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 constexpr VkDeviceSize align_up(VkDeviceSize value, VkDeviceSize alignment) {

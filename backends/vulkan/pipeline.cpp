@@ -2,7 +2,7 @@
 #include <pellucid/vulkan/device.hpp>
 #include "convert.hpp"
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 /// The shader modules and specialisation constants of one pipeline; modules are destroyed with it.

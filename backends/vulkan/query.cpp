@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <pellucid/vulkan/device.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 Result<rhi::Queries> Device::make_queries(const rhi::QueriesDesc& desc) {
     Context& c = context_;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <pellucid/vulkan/context.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 Result<void> Ring::init(Context& context, VkBufferUsageFlags usage, std::uint64_t padding, std::uint64_t limit,
                         const char* debug_name) {

@@ -4,7 +4,7 @@
 #include <pellucid/vulkan/device.hpp>
 #include "convert.hpp"
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 namespace {
 
 using rhi::TextureUsage;

@@ -5,7 +5,7 @@
 #include <pellucid/vulkan/context.hpp>
 #include "convert.hpp"
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 Result<Context::Staged> Context::stage(std::uint64_t minimum, std::uint64_t wanted) {
     if (lost) return lost_error();

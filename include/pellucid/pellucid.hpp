@@ -15,7 +15,7 @@
 #include <pellucid/opengl/passes.hpp>
 #endif
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 #if defined(PELLUCID_HAS_VULKAN) && defined(PELLUCID_HAS_OPENGL)
 /// The backends that this program links, best first.

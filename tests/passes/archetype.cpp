@@ -13,7 +13,7 @@
 #include "support/methods.hpp"
 #include "support/pass_stage.hpp"
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(, Null)
 }  // namespace pellucid
 

@@ -4,7 +4,7 @@
 /// Bit sets over scoped enumerations: specialise `enable_flags<E>` and `|`, `&`, `has` work on `E`.
 #include <type_traits>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <class E>
 inline constexpr bool enable_flags = false;

@@ -6,7 +6,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// binary16 bits → float, exact (also subnormals, infinities, NaN).
 [[nodiscard]] constexpr float half_to_float(std::uint16_t half) noexcept {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Names an object of kind `Tag` in the device that made it: 20 bits of index, 12 of generation.  A default handle is
 /// null.  A handle whose object was destroyed never names another object until 4,095 others have used its slot.

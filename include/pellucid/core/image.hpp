@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct Extent2D {
     std::uint32_t width = 0;   ///< [texel]

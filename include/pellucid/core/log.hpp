@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class Severity : std::uint8_t { info, warning, error };
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What kind of failure: a caller may branch on it; a person reads `Error::message`.
 enum class Errc : std::uint8_t {

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <initializer_list>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Up to `N` values of `T`.  Precondition of every insertion: size() < N (asserted).
 template <class T, std::size_t N>

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
-namespace pellucid::gpu {
+namespace pellucid::inline v0_1::gpu {
 using uint = std::uint32_t;
 struct alignas(8) vec2 {
     float x = 0, y = 0;
@@ -26,7 +26,7 @@ struct alignas(16) uvec4 {
     uint x = 0, y = 0, z = 0, w = 0;
 };
 }  // namespace pellucid::gpu
-#define PELLUCID_GPU_BEGIN namespace pellucid::gpu {
+#define PELLUCID_GPU_BEGIN namespace pellucid::inline v0_1::gpu {
 #define PELLUCID_GPU_END }
 #define PELLUCID_GPU_DEFAULT(value) = value
 #define PELLUCID_GPU_SIZE(type, bytes)                                                                   \

@@ -4,7 +4,7 @@
 /// The frame that passes are recorded into: one or more command lists, one submission each.
 #include <pellucid/rhi/backend.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// open → record → (flush → record)… → close.  Who needs to do something whenever a command list begins or ends (upload
 /// the frame's data, time it) derives from it.

@@ -13,7 +13,7 @@
 #include <type_traits>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Names a texture of a graph.
 struct GraphTexture {

@@ -8,7 +8,7 @@
 #include <pellucid/measure/image_error.hpp>
 #include <algorithm>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 /// Layers over each pixel, `[h, w, 1]`.
 using LayerCounts = Image<std::uint32_t>;

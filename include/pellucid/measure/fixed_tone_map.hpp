@@ -16,7 +16,7 @@
 #include <pellucid/measure/image_error.hpp>
 #include <string>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 /// Linear light → display signal in [0,1]: `12.92 x` up to 0.0031308, then `1.055 x^(1/2.4) − 0.055` (IEC 61966-2-1).
 /// Below 0 and NaN: 0; above 1: 1.

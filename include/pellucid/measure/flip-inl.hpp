@@ -12,7 +12,7 @@
 #include <limits>
 #include <vector>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 namespace flip::detail {
 
 using measure::detail::filter_columns;

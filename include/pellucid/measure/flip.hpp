@@ -19,7 +19,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 struct FlipOptions {
     double pixels_per_degree = flip::default_pixels_per_degree;  ///< in [1, 1000]; `flip::pixels_per_degree` makes one

@@ -10,7 +10,7 @@
 #include <array>
 #include <cmath>
 
-namespace pellucid::measure::flip {
+namespace pellucid::inline v0_1::measure::flip {
 
 using Vec3 = std::array<double, 3>;
 using Mat3 = std::array<Vec3, 3>;  ///< rows

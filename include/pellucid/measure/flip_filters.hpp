@@ -11,7 +11,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pellucid::measure::flip {
+namespace pellucid::inline v0_1::measure::flip {
 
 /// Pixels per degree of visual angle: distance · (pixels across / width) · π/180.
 /// \param distance from the eye to the monitor [m]  \param width of the monitor [m]

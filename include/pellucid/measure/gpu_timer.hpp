@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 struct GpuTimerDesc {
     std::uint32_t frames_in_flight = 2;  ///< as in `rhi::DeviceDesc`

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 namespace flip::detail {
 
 /// y = (k0 x² + k1 x) / (k3 x² + k4 x + k5): the fit has 2.51, 0.03, 2.43, 0.59, 0.14 for 0.6 x.

@@ -17,7 +17,7 @@
 #include <pellucid/measure/flip.hpp>
 #include <limits>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 struct HdrFlipOptions {
     double pixels_per_degree = flip::default_pixels_per_degree;  ///< in [1, 1000]

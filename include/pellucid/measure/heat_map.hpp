@@ -9,7 +9,7 @@
 #include <limits>
 #include <pellucid/core/image.hpp>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 enum class HeatScale : std::uint8_t { linear, logarithmic };
 

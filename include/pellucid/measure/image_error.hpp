@@ -20,7 +20,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 enum class ErrorScale : std::uint8_t { absolute, scaled };
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <span>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 /// Values are compared across all orders, so that two orders that differ from the baseline in opposite directions
 /// count with their whole distance: the spread of a value is its largest minus its least over the orders.

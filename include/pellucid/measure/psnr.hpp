@@ -4,7 +4,7 @@
 /// PSNR of linear-light pictures as displayed.  (PSNR of 8-bit pictures is in image_error.hpp.)
 #include <pellucid/measure/fixed_tone_map.hpp>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 /// Of the display signals s in [0,1] that `fixed_tone_map` makes of the channels of light:
 ///   mse = Σ (s_test − s_reference)² / n;  psnr = 10 log10(1 / mse) [dB]

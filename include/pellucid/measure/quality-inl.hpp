@@ -7,7 +7,7 @@
 #include <cstdarg>
 #include <cstdio>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 namespace detail {
 
 /// A string as JSON.

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace measure {
 
 enum class QualityMetrics : std::uint32_t {

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 namespace detail {
 
 inline constexpr std::uint32_t ssim_radius = ssim_window / 2;

@@ -16,7 +16,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 inline constexpr std::uint32_t ssim_window = 11;  ///< side of a window [pixel]
 

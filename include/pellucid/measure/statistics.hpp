@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::measure {
+namespace pellucid::inline v0_1::measure {
 
 /// Quantile `q` in [0,1] of sorted values, by linear interpolation between order statistics: position (n−1) q
 /// (definition 7 of Hyndman and Fan 1996).  0 where there are none.

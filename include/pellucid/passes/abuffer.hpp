@@ -5,7 +5,7 @@
 #include <pellucid/passes/list_compositor.hpp>
 #include <pellucid/shaders/abuffer.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct AbufferDesc {
     FragmentDesc fragments = {};

@@ -8,7 +8,7 @@
 #include <pellucid/rhi/unique.hpp>
 #include <pellucid/shaders/dfg.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Fills a `[128, 128]` rgba16_float texture with loss, shift and the row's averages.
 template <rhi::Backend B>

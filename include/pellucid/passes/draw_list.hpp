@@ -9,7 +9,7 @@
 #include <pellucid/shaders/scene.hpp>
 #include <span>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct DrawItem {
     std::uint32_t first_index = 0;

@@ -8,7 +8,7 @@
 #include <pellucid/shaders/dual_peel.hpp>
 #include <algorithm>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct DualPeelDesc {
     FragmentDesc fragments = {};

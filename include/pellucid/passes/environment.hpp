@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Side of a cube map [texel]: the power of two that keeps a picture's detail, or `asked`, cut to 8 … 512 (128 on
 /// processors, where making it takes a second then).

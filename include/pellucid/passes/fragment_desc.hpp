@@ -7,7 +7,7 @@
 #include <pellucid/passes/lighting.hpp>
 #include <array>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct FragmentDesc {
     Extent2D size = {};  ///< [texel] of the picture

@@ -4,7 +4,7 @@
 /// Bodies of FragmentLists<B>.
 #include <pellucid/passes/fragment_lists.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 namespace detail {
 

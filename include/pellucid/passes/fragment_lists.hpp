@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What the lists hold of a fragment.
 enum class FragmentContent : std::uint8_t {

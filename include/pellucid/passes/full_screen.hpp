@@ -9,7 +9,7 @@
 #include <initializer_list>
 #include <utility>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// A sampler for texelFetch.
 [[nodiscard]] constexpr rhi::SamplerDesc texel_sampler(const char* debug_name) {

@@ -6,7 +6,7 @@
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/shaders/gbuffer.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class GBufferLayout : std::uint8_t {
     compact,  ///< 16 bytes a pixel: position comes from depth, normals are octahedral (largest error 0.0025°)

@@ -7,7 +7,7 @@
 #include <pellucid/passes/list_compositor.hpp>
 #include <pellucid/shaders/interleaved.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct InterleavedDesc {
     FragmentDesc fragments = {};

@@ -7,7 +7,7 @@
 #include <pellucid/passes/gbuffer.hpp>
 #include <pellucid/shaders/interleaved_skyx.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct InterleavedSkyxDesc {
     GBufferDesc gbuffer = {};  ///< as that of the opaque pass; `culls` those of translucent instances

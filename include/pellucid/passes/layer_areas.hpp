@@ -10,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// `[k]`: the smallest rectangle of whole tiles with all pixels that have more than k fragments; as many as the deepest
 /// tile has.  A pixel has no more layers than fragments, so the k-th layer from the front, counted from 0, lies in

@@ -6,7 +6,7 @@
 #include <pellucid/passes/fragment_desc.hpp>
 #include <pellucid/shaders/layer_count.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What the strips of a count add up to.
 struct LayerTotals {

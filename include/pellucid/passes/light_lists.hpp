@@ -12,7 +12,7 @@
 #include <pellucid/passes/full_screen.hpp>
 #include <pellucid/shaders/light_lists.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class LightAssignment : std::uint8_t {
     automatic,  ///< by the number of lights: `scene_needs` says which and why

@@ -22,7 +22,7 @@
 #include <optional>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 class LightVolumesPass {

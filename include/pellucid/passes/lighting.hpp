@@ -9,7 +9,7 @@
 #include <pellucid/shaders/full_screen.hpp>
 #include <pellucid/shaders/lighting.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class ShadingStage : std::uint8_t { compute, fragment };
 enum class Brdf : std::uint8_t {

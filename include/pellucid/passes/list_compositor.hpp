@@ -5,7 +5,7 @@
 #include <pellucid/gpu/list_compositor.h>
 #include <pellucid/passes/fragment_lists.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct ListCompositorDesc {
     FragmentListsDesc lists = {};

@@ -4,7 +4,7 @@
 /// Bodies of PeelPass<B>.
 #include <pellucid/passes/peel.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 Result<PeelPass<B>> PeelPass<B>::create(typename B::Device& device, const PeelDesc& desc, const PeelTargets& targets) {

@@ -11,7 +11,7 @@
 #include <array>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct PeelDesc {
     FragmentDesc fragments = {};

@@ -9,7 +9,7 @@
 #include <pellucid/shaders/peel.hpp>
 #include <pellucid/shaders/peel_seed.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct PeelSeedDesc {
     FragmentDesc fragments = {};

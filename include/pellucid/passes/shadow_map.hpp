@@ -10,7 +10,7 @@
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/shaders/shadow_map.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct ShadowMapDesc {
     std::uint32_t needs = PELLUCID_NEED_ALL;  ///< PELLUCID_NEED_* of the scene

@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// A translucent instance with the distance that it is sorted by.
 struct SortedItem {

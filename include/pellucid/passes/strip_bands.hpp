@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Strips [first, first + count) whose fragments are stored at the same time.
 struct StripBand {

@@ -7,7 +7,7 @@
 #include <pellucid/passes/full_screen.hpp>
 #include <pellucid/shaders/tonemap.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class ToneCurve : std::uint8_t {
     none = PELLUCID_TONEMAP_NONE,          ///< clamp to [0,1]

@@ -22,7 +22,7 @@
 #include <pellucid/reference/brdf_terms.hpp>
 #include <pellucid/reference/conserving.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// `gltf`: Appendix B of glTF 2.0.  `seed`: Schlick's masking with k = (r+1)²/8, and biased denominators; kept to be
 /// measured.  `blinn_phong`: the power-law highlight, for comparison.  `conserving`: glTF's highlight, what it loses

@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <numbers>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// What a point of an opaque surface reflects.
 template <std::floating_point T = double>

@@ -5,7 +5,7 @@
 /// C += T c, T ← T (1 − a), starting from C = 0 and T = 1, and at the end C + T background.
 #include <glm/vec3.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// The layers of one pixel so far.
 struct Composite {

@@ -17,7 +17,7 @@
 #include <pellucid/reference/brdf_terms.hpp>
 #include <pellucid/reference/dfg_table.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// What of a surface and an eye is the same for all lights.
 template <std::floating_point T = double>

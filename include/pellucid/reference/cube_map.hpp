@@ -21,7 +21,7 @@
 #include <pellucid/reference/quadrature.hpp>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// A place on a cube: a face, 0 to 5, and where on it, each in [0,1].
 struct CubePlace {

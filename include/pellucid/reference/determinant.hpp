@@ -13,7 +13,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// p q − r s to 1.5 ulp, also where the products cancel (Kahan; Jeannerod, Louvet and Muller 2013).
 [[nodiscard]] inline double difference_of_products(double p, double q, double r, double s) noexcept {

@@ -20,7 +20,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Gauss' rule on [0,1].
 struct GaussRule {

@@ -17,7 +17,7 @@
 #include <pellucid/core/half.hpp>
 #include <pellucid/reference/dfg.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 struct DfgTexel {
     float loss = 0;

@@ -20,7 +20,7 @@
 #include <pellucid/core/image.hpp>
 #include <pellucid/reference/quadrature.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Where `direction` (unit) is in a picture: u in [0,1], v in [0,1] from the top.  At the poles u is 1/2.
 [[nodiscard]] inline glm::dvec2 equirect_uv(glm::dvec3 direction) noexcept;

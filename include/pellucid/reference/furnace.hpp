@@ -5,7 +5,7 @@
 #include <pellucid/reference/brdf.hpp>
 #include <type_traits>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// ∫ response(V, L) dω over the hemisphere around z, V at cosine `mu` in the xz plane, for lobes shaped like GGX with
 /// `alpha` > 0: the midpoint rule over half vectors, `steps`² of them, tan²θ = α² u/(1 − u), graded toward the tail and

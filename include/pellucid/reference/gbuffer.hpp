@@ -15,7 +15,7 @@
 #include <pellucid/reference/srgb.hpp>
 #include <pellucid/scene/camera.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 // ---------------------------------------------------------------------------------------------------- normals
 

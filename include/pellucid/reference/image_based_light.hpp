@@ -16,7 +16,7 @@
 #include <pellucid/reference/cube_map.hpp>
 #include <pellucid/scene/environment.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Light from all around, ready to be asked.
 class EnvironmentLight {

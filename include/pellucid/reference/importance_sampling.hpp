@@ -14,7 +14,7 @@
 #include <numbers>
 #include <pellucid/reference/environment.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// The i-th of n points of the Hammersley set in [0,1)²: ((i + 1/2)/n, the bits of i mirrored at the binary point).
 /// 24 bits are kept, so that float and double have the same second coordinate, and it is below 1.

@@ -15,7 +15,7 @@
 #include <pellucid/scene/camera.hpp>
 #include <pellucid/scene/light.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 struct LightSphere {
     glm::dvec3 center{0, 0, 0};  ///< [m] view space

@@ -15,7 +15,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// A light is never nearer than this to what it lights [m]: 1/d² stops growing, so that a light on a surface stays
 /// finite.  At d = 1 mm and beyond 1/d² is exact.

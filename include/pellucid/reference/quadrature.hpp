@@ -8,7 +8,7 @@
 #include <numbers>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Points in (0,1) and their weights, which add up to 1.
 struct QuadratureRule {

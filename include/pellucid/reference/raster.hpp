@@ -22,7 +22,7 @@
 #include <pellucid/scene/camera.hpp>
 #include <utility>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// View space [m] → clip space.
 [[nodiscard]] inline glm::dvec4 clip_from_point(const ClipFromView& clip, const glm::dvec3& e) noexcept {

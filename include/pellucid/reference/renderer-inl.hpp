@@ -19,7 +19,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 namespace detail {
 
 /// Runs `work` with the threads that the options allow.

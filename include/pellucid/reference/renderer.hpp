@@ -31,7 +31,7 @@
 #include <pellucid/scene/scene.hpp>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Longest side of a picture.
 inline constexpr std::uint32_t max_picture_side = 16384;

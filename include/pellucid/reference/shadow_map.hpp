@@ -21,7 +21,7 @@
 #include <pellucid/scene/camera.hpp>
 #include <span>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// A map and how it is looked into.
 struct ShadowMapView {

@@ -12,7 +12,7 @@
 #include <pellucid/reference/quadrature.hpp>
 #include <pellucid/scene/sky.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// E(n)/π of a zonal function for a normal whose upward component is `y`: ∫ f(h) K(h) dh over heights, with
 /// K(h) = (1/π) ∫ max(a + b cos φ, 0) dφ, a = y h, b = √(1−y²)√(1−h²), in closed form.  `step`: see `integrate`.

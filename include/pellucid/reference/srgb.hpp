@@ -6,7 +6,7 @@
 #include <concepts>
 #include <cstdint>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// Linear light in [0,1] → sRGB signal in [0,1]: `12.92 x` up to 0.0031308, then `1.055 x^(1/2.4) − 0.055`.
 /// The standard's constants leave a step of 3e-8 at the joint.  Precondition: x >= 0.

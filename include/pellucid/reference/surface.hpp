@@ -20,7 +20,7 @@
 #include <pellucid/reference/texture.hpp>
 #include <pellucid/scene/scene.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// An instance's matrix and what follows from it.
 struct Placement {

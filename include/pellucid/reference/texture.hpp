@@ -17,7 +17,7 @@
 #include <pellucid/scene/mipmap.hpp>
 #include <vector>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// A picture as it is sampled: 8-bit RGBA levels, each half the size of the one before, and how to read them.
 struct SampledTexture {

@@ -13,7 +13,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
-namespace pellucid::reference {
+namespace pellucid::inline v0_1::reference {
 
 /// `none`: limited to [0,1].
 /// `reinhard`: x/(1+x) on each channel (Reinhard et al. 2002, without the white point).

@@ -8,7 +8,7 @@
 #include <optional>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// One scope at a time.  What a pass takes in all submissions of a frame is added up.
 template <rhi::Backend B>

@@ -10,7 +10,7 @@
 #include <pellucid/renderer/needs.hpp>
 #include <optional>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 class GpuEnvironment {

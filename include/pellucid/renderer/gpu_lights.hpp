@@ -9,7 +9,7 @@
 #include <cmath>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Owns what lights take.  Records and bounds are in view space: they are written again where the camera moved.
 template <rhi::Backend B>

@@ -6,7 +6,7 @@
 #include <pellucid/renderer/texture_levels.hpp>
 #include <cstring>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 template <class T>

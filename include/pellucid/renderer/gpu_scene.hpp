@@ -18,7 +18,7 @@
 #include <optional>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Owns the GPU's copy of one Scene.  `settings` decide what is uploaded and drawn.
 template <rhi::Backend B>

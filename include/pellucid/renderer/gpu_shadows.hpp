@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// An instance that casts.
 struct ShadowCaster {

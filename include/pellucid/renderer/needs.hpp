@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct SceneNeeds {
     std::uint32_t mask = 0;                              ///< PELLUCID_NEED_* of gpu/scene.h

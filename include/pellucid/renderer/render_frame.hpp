@@ -6,7 +6,7 @@
 #include <pellucid/renderer/frame_clock.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Lives as long as the recording of one frame.
 template <rhi::Backend B>

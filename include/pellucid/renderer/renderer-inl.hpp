@@ -4,7 +4,7 @@
 /// Bodies of Renderer<B>.
 #include <pellucid/renderer/renderer.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 Result<std::unique_ptr<Renderer<B>>> Renderer<B>::create(typename B::Device& device, const Scene& scene,

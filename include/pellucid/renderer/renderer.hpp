@@ -18,7 +18,7 @@
 #include <memory>
 #include <optional>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What a frame took.  Bytes are of the renderer's own objects; the device's rings are apart.
 struct RenderStats {

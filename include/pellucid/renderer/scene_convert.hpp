@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Where each mesh lies in the shared vertex and index buffers.
 struct MeshPlacement {

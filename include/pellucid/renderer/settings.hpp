@@ -12,7 +12,7 @@
 #include <cstdint>
 #include <iterator>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class Transparency : std::uint8_t {
     none,              ///< translucent surfaces are left out

@@ -21,7 +21,7 @@
 #include <limits>
 #include <span>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Bounds along the axes of the world [m]; empty while lower > upper.
 struct WorldBox {

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// `image` `[h, w, 4]` with another size: texel centres are mapped linearly and the four nearest texels mixed, colours
 /// in linear light.  Sizes that are equal give the same bytes.  Precondition: 4 channels, neither size is empty.

@@ -4,7 +4,7 @@
 /// Bodies of Translucent<B>: which method runs, and what can be read of its last frame.
 #include <pellucid/renderer/translucent.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 void Translucent<B>::start(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs,

@@ -20,7 +20,7 @@
 #include <optional>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What the method of the last frame did, and what is missing from the picture.
 struct TranslucencyStats {

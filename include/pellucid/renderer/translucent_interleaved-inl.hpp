@@ -4,7 +4,7 @@
 /// Bodies of Translucent<B>: methods whose surfaces the lighting pass lights.
 #include <pellucid/renderer/translucent.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 void Translucent<B>::declare_interleaved_skyx_layers(std::span<const GraphTexture> colors,

@@ -4,7 +4,7 @@
 /// Bodies of Translucent<B>: methods that put fragments in order after the lighting pass.
 #include <pellucid/renderer/translucent.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 void Translucent<B>::declare_sorted() {

@@ -15,7 +15,7 @@
 #include <memory>
 #include <vector>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 /// Buffers: creation, the mapped bytes of upload and readback memory (empty for device memory), destruction.
 template <class D>

@@ -7,7 +7,7 @@
 #include <pellucid/rhi/backend.hpp>
 #include <utility>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace counted {
 
 /// Calls of one frame, from `begin_frame` to `submit`.

@@ -18,7 +18,7 @@
 #include <span>
 #include <string>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 using Buffer = Handle<struct BufferTag>;
 using Texture = Handle<struct TextureTag>;
@@ -34,6 +34,14 @@ inline constexpr std::size_t max_resources = 32;    ///< declared reads and writ
 
 // ---------------------------------------------------------------------------------------------------- device
 
+/// The windows that a device is to present to (rhi/surface.hpp).
+enum class WindowSystem : std::uint8_t { none, x11 };
+/// A connection to a window system, as a window library hands it out; it must outlive the device.
+struct NativeDisplay {
+    WindowSystem system = WindowSystem::none;
+    void* connection = nullptr;  ///< X11: the `Display*`
+};
+
 struct DeviceDesc {
     std::string device = {};             ///< index ("0") or a part of the name; empty: the best one
     bool validation = false;             ///< validation layer with synchronisation validation; GL debug output
@@ -41,6 +49,7 @@ struct DeviceDesc {
     bool gl_spirv = false;               ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
     std::string pipeline_cache = {};     ///< file of the driver's compiled pipelines; empty: none is kept
     bool count_api_calls = false;        ///< put a counting thunk before every API function: `Device::api_calls()`
+    NativeDisplay display = {};          ///< only devices that can present there are used; none: no windows
     LogSink log = {};
 };
 

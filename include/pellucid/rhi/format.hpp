@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 enum class Format : std::uint8_t {
     undefined,

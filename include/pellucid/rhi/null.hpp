@@ -9,7 +9,7 @@
 #include <pellucid/rhi/backend.hpp>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace null {
 
 /// One call: the function's name and its main argument (a handle's bits, a count, a size; 0 where there is none).

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <vector>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 /// Texels as they are stored: rows tightly packed, row 0 at the top.
 struct Texels {

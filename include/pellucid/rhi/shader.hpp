@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
 

@@ -4,7 +4,7 @@
 /// Ownership: `Unique<D, H>` destroys the object its handle names.
 #include <utility>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 /// Owns the object that `handle` names in `device`, which must outlive it.  Move-only.
 template <class Device, class Handle>

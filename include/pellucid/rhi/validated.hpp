@@ -13,7 +13,7 @@
 /// Costs a few hash look-ups and comparisons a call: for development and tests.
 #include <pellucid/rhi/validated/device.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 struct Validated {

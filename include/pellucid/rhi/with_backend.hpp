@@ -9,7 +9,7 @@
 #include <string_view>
 #include <type_traits>
 
-namespace pellucid::rhi {
+namespace pellucid::inline v0_1::rhi {
 
 /// The backends of a program, best first.
 template <Backend... Bs>

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class Projection { perspective, orthographic };
 

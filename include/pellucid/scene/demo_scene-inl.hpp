@@ -6,7 +6,7 @@
 #include <pellucid/scene/detail/scene_builder.hpp>
 #include <pellucid/scene/primitives.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 PELLUCID_INLINE Scene make_demo_scene() {
     detail::SceneBuilder builder;

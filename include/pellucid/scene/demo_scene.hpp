@@ -5,7 +5,7 @@
 #include <pellucid/core/config.hpp>
 #include <pellucid/scene/scene.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// 5 x 5 spheres, metallic 0 to 1 from the bottom row to the top one, roughness 0.05 to 1 from left to right, over a
 /// floor with a wall behind; eight coloured point lights; two translucent cubes (alpha 0.4 and 0.6) that overlap each

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <memory>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class EnvironmentKind : std::uint8_t {
     none,

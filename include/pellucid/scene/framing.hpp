@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// World-space bounds of every instance.  An empty scene has lower > upper.
 struct Bounds {

@@ -10,7 +10,7 @@
 #include <cstdio>
 #include <new>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 /// "major.minor" with nothing around it.

@@ -21,7 +21,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What a file may ask for.  A file beyond a limit is refused before the memory is taken.
 struct GltfLimits {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 /// Collects the JSON tables and the binary chunk of a file.

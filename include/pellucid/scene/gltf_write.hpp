@@ -7,7 +7,7 @@
 #include <pellucid/scene/scene.hpp>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Writes one self-contained binary glTF 2.0 file: a mesh each `Mesh`, a node each instance, camera and light, in this
 /// order; pictures as PNG inside.  `load_gltf` of it gives the same scene, bit by bit, as long as the scene keeps its

@@ -14,7 +14,7 @@
 #include <new>
 #include <tinyexr.h>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 PELLUCID_INLINE Result<Image8> decode_image(std::span<const std::byte> bytes, const std::string& name,
                                             const ImageLimits& limits) {

@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct ImageLimits {
     std::uint32_t max_side = 16384;                     ///< [texel]

@@ -13,7 +13,7 @@
 #include <span>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class LightKind : std::uint8_t { directional, point, spot };
 

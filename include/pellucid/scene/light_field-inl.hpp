@@ -5,7 +5,7 @@
 #include <pellucid/scene/detail/sample_parts.hpp>
 #include <pellucid/scene/light_field.hpp>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 PELLUCID_INLINE Scene make_light_field(const LightField& field) {
     constexpr double side = 40;  // [m]

@@ -6,7 +6,7 @@
 #include <pellucid/scene/scene.hpp>
 #include <cstdint>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 struct LightField {
     std::uint32_t lights = 1000;  ///< every fourth is a spot that points down, the others are point lights

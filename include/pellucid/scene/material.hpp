@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
 enum class TextureFilter : std::uint8_t { nearest, linear };

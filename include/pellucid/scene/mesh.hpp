@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// A triangle list with one material.  Every non-empty attribute has `positions.size()` values; every index is below
 /// it; `indices.size()` is a multiple of 3; positions are finite.  Normals are always there (flat ones are made where

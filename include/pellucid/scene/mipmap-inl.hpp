@@ -8,7 +8,7 @@
 #include <bit>
 #include <cmath>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 inline const std::array<float, 256>& srgb_table() {

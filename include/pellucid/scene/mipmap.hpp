@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What the texels mean, and so how they are averaged.
 enum class MipContent : std::uint8_t {

@@ -12,7 +12,7 @@
 #include <map>
 #include <utility>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 PELLUCID_INLINE void update_bounds(Mesh& mesh) {
     mesh.lower = mesh.upper = mesh.positions.empty() ? glm::vec3(0) : mesh.positions[0];

@@ -7,7 +7,7 @@
 #include <pellucid/scene/mesh.hpp>
 #include <cstdint>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Latitude-longitude sphere: `rings` >= 2 bands from pole to pole, `segments` >= 3 around; u goes round from -x over
 /// +z to +x, v from the north pole (+y) to the south pole.  2 segments (rings - 1) triangles; the seam is doubled.

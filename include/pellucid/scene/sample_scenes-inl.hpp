@@ -11,7 +11,7 @@
 #include <cmath>
 #include <string>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 PELLUCID_INLINE Scene make_peeling_scene() {
     detail::SceneBuilder builder;
     const std::uint32_t amber =

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Depth peeling's classic demonstration: a translucent teapot (alpha 0.5), a pane (0.4) that cuts it and a sphere
 /// (0.6) that is in both, lit by one sun.  Each is in front of each other one somewhere, so no order of the three is

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// One mesh placed in the world.  The order of instances is the draw order: at equal depth the later one is in front.
 struct Instance {

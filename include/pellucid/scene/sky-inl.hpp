@@ -9,7 +9,7 @@
 #include <array>
 #include <numbers>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 /// Gauss–Legendre on [0,1] with 12 points: Abramowitz and Stegun, table 25.4, the positive half on [-1,1].

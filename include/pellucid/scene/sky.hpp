@@ -11,7 +11,7 @@
 #include <concepts>
 #include <cstdint>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Three colours, linear radiance.  The defaults are those of the document that the project grew from.
 struct Sky {

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 /// What an instance covers, seen from the camera; the margins for rounding are in it.

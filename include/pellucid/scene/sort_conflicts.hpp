@@ -28,7 +28,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// What the detector found.  Instances are indices into Scene::instances, in rising order.
 struct SortConflicts {

@@ -11,7 +11,7 @@
 #include <numeric>
 #include <unordered_map>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 /// Corners are one vertex where these eight floats have the same bits (with -0 as 0).

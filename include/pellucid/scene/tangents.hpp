@@ -18,7 +18,7 @@
 #include <pellucid/scene/mesh.hpp>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// Fills `mesh.tangents` from `uv`, which has one value a vertex (`mesh.uv0` or `mesh.uv1`, or transformed ones).
 /// May append vertices (all attributes follow) and change indices; the number and order of triangles stay.  Every

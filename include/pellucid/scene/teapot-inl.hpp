@@ -11,7 +11,7 @@
 #include <span>
 #include <utility>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace detail {
 
 // The data set is symmetric, so what is written here is less than its 306 points.  The numbers are those of P.

@@ -13,7 +13,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// `P(s, t)` = sum over i, j of B_i(t) B_j(s) `points[i][j]`, s and t in [0,1], B the cubic Bernstein polynomials.
 struct BezierPatch {

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 /// One array: pictures of one size, encoding and sampler.
 struct TextureArrayPlan {

@@ -10,7 +10,7 @@
 #include "../../../backends/opengl/functions.hpp"
 #include "support/gpu.hpp"
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace {
 
 /// Every word glXxx( of the backend's sources, without "gl".

@@ -4,7 +4,7 @@
 #include <thread>
 #include "support/gpu.hpp"
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 
 using test::must;
 using test::own;

@@ -3,7 +3,7 @@
 #include <pellucid/opengl/hazards.hpp>
 #include "support/catch.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 namespace {
 
 using rhi::Access;

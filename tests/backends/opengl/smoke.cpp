@@ -4,7 +4,7 @@
 #include <pellucid/opengl/opengl.hpp>
 #include "support/gpu.hpp"
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 namespace {
 
 using test::must;

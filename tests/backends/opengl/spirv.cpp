@@ -4,7 +4,7 @@
 #include <pellucid/shaders/test.hpp>
 #include "support/catch.hpp"
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 using Constants = std::vector<rhi::SpecConstant>;
 

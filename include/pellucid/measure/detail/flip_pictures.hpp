@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace pellucid::measure::detail {
+namespace pellucid::inline v0_1::measure::detail {
 
 [[nodiscard]] inline Result<void> check_flip(const ImageF& test, const ImageF& reference, const FlipOptions& options,
                                              const char* what) {

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::measure::detail {
+namespace pellucid::inline v0_1::measure::detail {
 
 using Plane = Image<double>;
 

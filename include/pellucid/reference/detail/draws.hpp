@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::reference::detail {
+namespace pellucid::inline v0_1::reference::detail {
 
 /// A corner in front of the eye, moved in x and y to the nearest point of a grid of 1/`steps` pixel.
 [[nodiscard]] inline glm::dvec4 on_grid(const glm::dvec4& p, Extent2D size, std::uint32_t steps) noexcept {

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::reference::detail {
+namespace pellucid::inline v0_1::reference::detail {
 
 /// A triangle met at a sample.
 struct Hit {

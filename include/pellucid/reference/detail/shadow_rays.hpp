@@ -7,7 +7,7 @@
 #include <pellucid/reference/detail/draws.hpp>
 #include <vector>
 
-namespace pellucid::reference::detail {
+namespace pellucid::inline v0_1::reference::detail {
 
 /// The triangles that cast.
 [[nodiscard]] inline TriangleTree caster_tree(const Prepared& prepared) {

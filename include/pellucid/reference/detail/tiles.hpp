@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid::reference::detail {
+namespace pellucid::inline v0_1::reference::detail {
 
 inline constexpr std::int32_t tile_side = 32;  // [pixel]
 

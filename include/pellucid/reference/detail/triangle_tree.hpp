@@ -16,7 +16,7 @@
 #include <span>
 #include <vector>
 
-namespace pellucid::reference::detail {
+namespace pellucid::inline v0_1::reference::detail {
 
 struct TreeTriangle {
     glm::dvec3 corners[3];

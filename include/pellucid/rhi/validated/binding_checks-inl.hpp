@@ -5,7 +5,7 @@
 #include <pellucid/core/config.hpp>
 #include <pellucid/rhi/validated/checks.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// Whether the pass declares this use of a buffer or a texture.
 template <class H>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// Creation: what one descriptor cannot know by itself (the backends check the rest).
 class CreationChecks {

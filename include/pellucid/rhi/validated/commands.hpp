@@ -5,7 +5,7 @@
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/validated/checks.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// Models `CommandList`.
 template <rhi::Backend B>

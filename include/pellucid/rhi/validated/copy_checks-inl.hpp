@@ -6,7 +6,7 @@
 #include <pellucid/core/config.hpp>
 #include <pellucid/rhi/validated/checks.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 PELLUCID_INLINE BufferInfo* RecordingChecks::copied(rhi::Buffer buffer, rhi::BufferUsage usage, rhi::Access access,
                                                     std::uint64_t offset, std::uint64_t bytes,

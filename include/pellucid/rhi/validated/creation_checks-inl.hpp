@@ -6,7 +6,7 @@
 #include <pellucid/core/config.hpp>
 #include <pellucid/rhi/validated/checks.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// The (group, binding) pairs that a module declares, from its OpDecorate instructions (SPIR-V specification, §3.32.3).
 PELLUCID_INLINE std::vector<ShaderBinding> shader_bindings(std::span<const std::uint32_t> spirv) {

@@ -6,7 +6,7 @@
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/validated/commands.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// Models `DeviceOf<Device, Commands>`.
 template <rhi::Backend B>

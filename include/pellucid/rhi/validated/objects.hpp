@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 /// "a" + 1 + "b": the parts of a sentence, numbers in decimal.
 template <class... Parts>

@@ -7,7 +7,7 @@
 #include <pellucid/core/config.hpp>
 #include <pellucid/rhi/validated/checks.hpp>
 
-namespace pellucid::validated {
+namespace pellucid::inline v0_1::validated {
 
 PELLUCID_INLINE std::string RecordingChecks::where(const char* call) const {
     return pass_ == Pass::none ? std::string(call) : text(call, " in the pass '", name_, "'");

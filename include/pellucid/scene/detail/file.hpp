@@ -15,7 +15,7 @@
 #include <system_error>
 #include <vector>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct CloseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 /// What a file may still take of something: what it asks for twice it pays for twice, so that work and memory stay in
 /// proportion to the file whatever refers to what.

@@ -10,7 +10,7 @@
 #include <limits>
 #include <map>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct GltfBufferView {
     std::size_t buffer = 0;

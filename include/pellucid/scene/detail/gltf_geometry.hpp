@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <algorithm>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 /// Which accessor formats an attribute may have.
 struct GltfAttributeRule {

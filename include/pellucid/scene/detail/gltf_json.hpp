@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 using Json = nlohmann::json;
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <map>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 /// Reads materials first; then only the textures and images that they use are made.
 class GltfLooks {

@@ -13,7 +13,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 class GltfNodes {
 public:

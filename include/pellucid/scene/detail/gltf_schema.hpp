@@ -8,7 +8,7 @@
 #include <limits>
 #include <span>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 enum class GltfObject : std::uint8_t {
     root,

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 [[nodiscard]] inline bool is_data_uri(std::string_view uri) noexcept {
     return uri.substr(0, 5) == "data:";

@@ -9,7 +9,7 @@
 #include <jpeglib.h>
 #include <jerror.h>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct JpegState {
     jpeg_decompress_struct decoder{};

@@ -13,7 +13,7 @@
 #include <tuple>
 #include <vector>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 /// The plane of a triangle.
 struct FacePlane {

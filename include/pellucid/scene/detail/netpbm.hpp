@@ -7,7 +7,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct NetpbmHeader {
     std::string_view kind;  ///< "P5", "PF", "Pf"

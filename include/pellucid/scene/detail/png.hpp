@@ -9,7 +9,7 @@
 #include <csetjmp>
 #include <png.h>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct PngState {
     png_structp png = nullptr;

@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 struct HdrHeader {
     Extent2D size;

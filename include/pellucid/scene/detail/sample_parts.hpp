@@ -10,7 +10,7 @@
 #include <random>
 #include <string>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 inline constexpr double sample_pi = 3.14159265358979323846;
 

@@ -6,7 +6,7 @@
 #include <glm/ext/matrix_transform.hpp>
 #include <utility>
 
-namespace pellucid::detail {
+namespace pellucid::inline v0_1::detail {
 
 class SceneBuilder {
 public:

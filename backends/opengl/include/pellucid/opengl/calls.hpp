@@ -7,7 +7,7 @@
 
 #include <cstdint>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// Where this thread's calls are counted: the counter of the device whose context is current.  Null: nowhere.
 inline constinit thread_local std::uint64_t* call_counter = nullptr;

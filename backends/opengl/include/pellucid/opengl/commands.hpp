@@ -14,7 +14,7 @@
 #include <pellucid/rhi/desc.hpp>
 #include <string>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 class Device;
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// One way to get a context: a device of EGL's enumeration (hardware), or Mesa's surfaceless platform.
 struct Adapter {

@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 class ProgramCache;
 

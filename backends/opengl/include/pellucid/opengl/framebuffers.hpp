@@ -8,7 +8,7 @@
 #include <pellucid/opengl/objects.hpp>
 #include <unordered_map>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// What a framebuffer is made of: 0, or texture name | layer << 32 | mip << 56, for each colour and then for depth; for
 /// a pass without attachments its size (height << 32 | width) instead of depth, and bit 63 set.

@@ -10,7 +10,7 @@
 #include <pellucid/opengl/calls.hpp>
 #include <pellucid/rhi/desc.hpp>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 /// Numbers of the last passes that stored to a resource from a shader and that used it at all; 0: none.
 struct Touch {

@@ -12,7 +12,7 @@
 #include <pellucid/opengl/raster_state.hpp>
 #include <pellucid/rhi/desc.hpp>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 struct BufferObject {
     GLuint name = 0;

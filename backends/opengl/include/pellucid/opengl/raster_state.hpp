@@ -7,7 +7,7 @@
 #include <pellucid/opengl/calls.hpp>
 #include <pellucid/rhi/desc.hpp>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 struct BlendState {
     bool enabled = false;

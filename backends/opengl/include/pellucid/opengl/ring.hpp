@@ -10,7 +10,7 @@
 #include <pellucid/opengl/calls.hpp>
 #include <vector>
 
-namespace pellucid::opengl {
+namespace pellucid::inline v0_1::opengl {
 
 class Ring {
 public:

@@ -8,7 +8,7 @@
 #include <pellucid/vulkan/context.hpp>
 #include <span>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// Models rhi::CommandList; see rhi/backend.hpp for what the functions mean.
 class Commands {

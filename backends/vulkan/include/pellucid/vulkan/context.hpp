@@ -17,7 +17,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// [byte] what the frame's uniform block may hold: the smallest maxUniformBufferRange of Vulkan.
 inline constexpr std::uint32_t uniform_slice_bytes = 16384;

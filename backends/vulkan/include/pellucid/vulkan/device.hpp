@@ -9,7 +9,7 @@
 #include <pellucid/vulkan/context.hpp>
 #include <span>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// Vulkan's own objects behind a device, for code that calls the API itself (through `table`, which has no layer of
 /// this library in it but the counting thunks).  They belong to the device.

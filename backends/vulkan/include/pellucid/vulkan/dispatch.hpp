@@ -43,7 +43,7 @@
     X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)
 // clang-format on
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 #define PELLUCID_VULKAN_MEMBER(function) PFN_vk##function function = nullptr;
 /// Functions that need no instance.

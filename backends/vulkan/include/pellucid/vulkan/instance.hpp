@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// Features of a device beyond Vulkan 1.3's own, by extension structure and version.
 struct Features {

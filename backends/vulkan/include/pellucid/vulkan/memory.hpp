@@ -10,7 +10,7 @@
 #include <pellucid/rhi/desc.hpp>
 #include <vector>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// A range of one VkDeviceMemory.
 struct Allocation {

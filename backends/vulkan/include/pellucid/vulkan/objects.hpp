@@ -8,7 +8,7 @@
 #include <pellucid/vulkan/memory.hpp>
 #include <vector>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 /// What the GPU last did with a buffer or a texture (all its levels and layers), in the order of submission: the last
 /// write (or layout change), and the reads after it that see it already.

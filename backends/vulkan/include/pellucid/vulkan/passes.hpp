@@ -7,7 +7,7 @@
 #include <pellucid/renderer/instances.hpp>
 
 #if !defined(PELLUCID_HEADER_ONLY)
-namespace pellucid {
+namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(extern, Vulkan)
 }  // namespace pellucid
 #endif

@@ -10,7 +10,7 @@
 #include <pellucid/core/result.hpp>
 #include <pellucid/vulkan/memory.hpp>
 
-namespace pellucid::vulkan {
+namespace pellucid::inline v0_1::vulkan {
 
 struct Context;
 

@@ -9,12 +9,16 @@
 #include <pellucid/vulkan/device.hpp>
 #include <vector>
 
-namespace pellucid {
+namespace pellucid::inline v0_1 {
+namespace vulkan {
+class Surface;  // vulkan/surface.hpp
+}
 
 struct Vulkan {
     static constexpr const char* name = "vulkan";
     using Device = vulkan::Device;
     using Commands = vulkan::Commands;
+    using Surface = vulkan::Surface;
     [[nodiscard]] static Result<std::unique_ptr<Device>> create(const rhi::DeviceDesc& desc) {
         return Device::create(desc);
     }
