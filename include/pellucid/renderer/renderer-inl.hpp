@@ -42,7 +42,7 @@ Result<void> Renderer<B>::build(const Scene& scene) {
     if (needs_.translucent || !needs_.lighting) hdr_usage |= attachment | storage;
     if (needs_.assignment == LightAssignment::volumes) hdr_usage |= storage;
     hdr_ = target(rhi::Format::rgba16_float, hdr_usage, "hdr");
-    display_ = target(rhi::Format::rgba8_unorm, storage | copy_source, "display");
+    display_ = target(rhi::Format::rgba8_unorm, storage | sampled | copy_source, "display");
     if (needs_.opaque || needs_.translucent)
         depth_ = target(rhi::Format::d32_float, attachment | sampled | copy_source, "depth");
 

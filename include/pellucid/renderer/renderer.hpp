@@ -86,6 +86,8 @@ public:
     /// behind; waits.  `invalid_argument` for methods without one: those that do not heed min_transmittance.
     [[nodiscard]] Result<double> read_transmittance_left() { return translucent_.read_transmittance_left(*device_); }
 
+    /// The texture of `read_display`, for windows and passes of the user's own (usages sampled and copy_source).
+    [[nodiscard]] rhi::Texture display() const noexcept { return graph_[display_]; }
     [[nodiscard]] RenderStats stats() const;
     [[nodiscard]] const SceneNeeds& needs() const noexcept { return needs_; }
     [[nodiscard]] const RenderSettings& settings() const noexcept { return settings_; }
