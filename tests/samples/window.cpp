@@ -6,109 +6,22 @@
 #include <pellucid/scene/framing.hpp>
 #if defined(PELLUCID_HAS_VULKAN)
 #include <pellucid/vulkan/passes.hpp>
-#include <pellucid/vulkan/surface.hpp>
 #endif
 #if defined(PELLUCID_HAS_OPENGL)
 #include <pellucid/opengl/passes.hpp>
-#include <pellucid/opengl/surface.hpp>
 #endif
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <chrono>
-#include <thread>
-#include "support/gpu.hpp"
-#include "support/window.hpp"
-#include "support/window_pixels.hpp"
+#include "support/windows.hpp"
 
 using namespace pellucid;
-using samples::Window;
-
-namespace {
-
-/// A window, a device that presents to it and its surface; the members go in the opposite order.
-template <class B>
-struct Shown {
-    std::unique_ptr<Window> window;
-    test::TestDevice<B> device;
-    std::unique_ptr<typename B::Surface> surface;
-
-    explicit operator bool() const { return surface != nullptr; }
-};
-
-std::unique_ptr<Window> open_window(Extent2D size) {
-    auto window = Window::open({.title = "window test", .size = size});
-    if (!window && window.error().code == Errc::no_device) {
-        test::skip(window.error().message, "PELLUCID_REQUIRE_DEVICES");
-        return {};
-    }
-    return test::must(std::move(window));
-}
-
-template <class B>
-Shown<B> open(Extent2D size) {
-    Shown<B> out{.window = open_window(size), .device = {}, .surface = {}};
-    if (!out.window) return out;
-    out.device = test::make_device<B>([&](rhi::DeviceDesc& desc) { desc.display = out.window->display(); });
-    if (out.device)
-        out.surface =
-            test::must(B::Surface::create(*out.device, {.window = out.window->native(), .debug_name = "test window"}));
-    return out;
-}
-
-/// Codes that tell every pixel from its neighbours, the top from the bottom and left from right.
-Image8 pattern(Extent2D size, std::uint32_t seed) {
-    Image8 out(size.width, size.height, 4);
-    for (std::uint32_t y = 0; y < size.height; ++y)
-        for (std::uint32_t x = 0; x < size.width; ++x) {
-            std::uint8_t* texel = &out.data[4 * (std::size_t{y} * size.width + x)];
-            texel[0] = static_cast<std::uint8_t>(7 * x + seed);
-            texel[1] = static_cast<std::uint8_t>(5 * y + 3 * seed);
-            texel[2] = static_cast<std::uint8_t>(x * y + 11 * seed);
-            texel[3] = 255;
-        }
-    return out;
-}
-Image8 without_alpha(const Image8& image) {
-    Image8 out(image.width, image.height, 3);
-    for (std::size_t i = 0; i < out.data.size(); ++i) out.data[i] = image.data[i / 3 * 4 + i % 3];
-    return out;
-}
-
-template <class D>
-auto make_texture(D& device, const Image8& image, rhi::Format format = rhi::Format::rgba8_unorm) {
-    return test::own(device, device.make_texture({.size = {image.width, image.height},
-                                                  .format = format,
-                                                  .usage = rhi::TextureUsage::sampled | rhi::TextureUsage::copy_source,
-                                                  .initial = std::as_bytes(std::span(image.data)),
-                                                  .debug_name = "picture"}));
-}
-
-/// Window systems show a picture when they like: soon.
-bool shows(const Window& window, const Image8& expected) {
-    for (int attempt = 0; attempt < 200; ++attempt) {
-        const Image8 now =
-            test::window_pixels(window.display().connection, window.native(), {expected.width, expected.height});
-        if (now.data == expected.data) return true;
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return false;
-}
-
-/// Waits until the window system has made a window as large as was asked.
-void resize(Window& window, Extent2D size) {
-    window.resize(size);
-    for (int attempt = 0; attempt < 200 && !(window.framebuffer() == size); ++attempt) window.wait(0.01);
-    REQUIRE(window.framebuffer().width == size.width);
-    REQUIRE(window.framebuffer().height == size.height);
-}
-
-}  // namespace
+using namespace pellucid::test;
 
 TEMPLATE_LIST_TEST_CASE("a window shows a texture code for code, its row 0 at the top", "[gpu][window]",
                         test::Backends) {
     using B = TestType;
     constexpr Extent2D size{161, 120};
-    Shown<B> shown = open<B>(size);
+    Shown<B> shown = open_shown<B>(size);
     if (!shown) return;
     for (std::uint32_t frame = 0; frame < 5; ++frame) {
         const Image8 image = pattern(size, frame);
@@ -120,7 +33,7 @@ TEMPLATE_LIST_TEST_CASE("a window shows a texture code for code, its row 0 at th
 
 TEMPLATE_LIST_TEST_CASE("a window follows twenty sizes, among them none", "[gpu][window]", test::Backends) {
     using B = TestType;
-    Shown<B> shown = open<B>({160, 120});
+    Shown<B> shown = open_shown<B>({160, 120});
     if (!shown) return;
     constexpr Extent2D sizes[] = {{200, 100}, {1, 1},   {0, 0},     {320, 240}, {64, 200},
                                   {0, 50},    {33, 31}, {400, 300}, {2, 300},   {160, 120}};
@@ -140,7 +53,7 @@ TEMPLATE_LIST_TEST_CASE("a window follows twenty sizes, among them none", "[gpu]
 TEMPLATE_LIST_TEST_CASE("a picture of another size than its window is stretched", "[gpu][window]", test::Backends) {
     using B = TestType;
     constexpr Extent2D size{128, 96};
-    Shown<B> shown = open<B>(size);
+    Shown<B> shown = open_shown<B>(size);
     if (!shown) return;
     // One colour a quarter: away from the seams a filter has nothing to mix.
     Image8 quarters(2, 2, 4);
@@ -166,7 +79,7 @@ TEMPLATE_LIST_TEST_CASE("a picture of another size than its window is stretched"
 TEMPLATE_LIST_TEST_CASE("two windows of one device show their own pictures", "[gpu][window]", test::Backends) {
     using B = TestType;
     constexpr Extent2D size{120, 80};
-    Shown<B> first = open<B>(size);
+    Shown<B> first = open_shown<B>(size);
     if (!first) return;
     const auto second = open_window(size);
     glfwSetWindowPos(second->glfw(), 400, 0);  // what is covered cannot be seen
@@ -185,7 +98,7 @@ TEMPLATE_LIST_TEST_CASE("a surface that cannot be, and what cannot be shown, is 
                         test::Backends) {
     using B = TestType;
     constexpr Extent2D size{64, 48};
-    Shown<B> shown = open<B>(size);
+    Shown<B> shown = open_shown<B>(size);
     if (!shown) return;
     const auto encoded = make_texture(*shown.device, pattern(size, 0), rhi::Format::rgba8_srgb);
     const auto no = shown.surface->present(encoded, size);
@@ -211,7 +124,7 @@ TEMPLATE_LIST_TEST_CASE("a renderer's picture in a window is the one without", "
     constexpr Extent2D size{160, 120};
     const Scene scene = make_demo_scene();
     const Camera camera = frame_scene(scene, size);
-    Shown<B> shown = open<B>(size);
+    Shown<B> shown = open_shown<B>(size);
     if (!shown) return;
     const auto renderer = test::must(Renderer<B>::create(*shown.device, scene, {.size = size}));
     for (int frame = 0; frame < 30; ++frame) {
