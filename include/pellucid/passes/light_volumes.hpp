@@ -241,4 +241,4 @@ void LightVolumesPass<B>::record(typename B::Commands& cmd, const SceneBinding& 
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

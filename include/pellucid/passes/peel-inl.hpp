@@ -173,4 +173,4 @@ void PeelPass<B>::composite(typename B::Commands& cmd) const {
                       });
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

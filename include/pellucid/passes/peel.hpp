@@ -100,6 +100,6 @@ private:
     bool truncated_ = false;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/passes/peel-inl.hpp>

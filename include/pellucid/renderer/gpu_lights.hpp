@@ -155,4 +155,4 @@ void GpuLights<B>::describe(gpu::FrameParams& frame) const {
     frame.light_slices = slices_;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

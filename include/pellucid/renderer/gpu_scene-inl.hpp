@@ -311,4 +311,4 @@ Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& c
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -100,6 +100,6 @@ private:
     std::vector<std::string> warnings_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/gpu_scene-inl.hpp>

@@ -221,4 +221,4 @@ Result<void> GpuShadows<B>::record(typename B::Commands& cmd, const ShadowMapPas
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

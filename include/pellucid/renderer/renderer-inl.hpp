@@ -349,4 +349,4 @@ RenderStats Renderer<B>::stats() const {
     return stats;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -139,6 +139,6 @@ private:
     std::uint32_t pipelines_ = 0;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/renderer-inl.hpp>
