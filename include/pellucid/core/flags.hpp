@@ -37,4 +37,4 @@ template <FlagEnum E>
     return (set & bits) != E{};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

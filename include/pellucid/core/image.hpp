@@ -39,4 +39,4 @@ struct Image {
 using Image8 = Image<std::uint8_t>;
 using ImageF = Image<float>;
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -22,4 +22,4 @@ struct LogSink {
     }
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -28,13 +28,14 @@
 #define PELLUCID_NEED_UNLIT 512u
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
-#define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
+#define PELLUCID_NEED_NORMALS 4096u          // a light falls on a lit surface, or the G-buffer is kept to be read
 #define PELLUCID_NEED_LIGHT_RANGES 2097152u  // a light ends somewhere
 #define PELLUCID_NEED_ALL (8191u | PELLUCID_NEED_LIGHT_RANGES)
 // Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
-#define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
+#define PELLUCID_NEED_LIGHT_VOLUMES \
+    32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
 #define PELLUCID_NEED_LIGHT_BLOCK 1048576u  // no lists, and all lights are in the uniform block
 // What a setting asks for.
 #define PELLUCID_NEED_SKY 65536u           // the procedural sky shines
@@ -58,15 +59,15 @@ struct FrameParams {
     vec4 world_x;  // columns of world_from_view (its rotation); w unused
     vec4 world_y;
     vec4 world_z;
-    vec4 clip_scale;  // sx, sy, ox, oy of ClipFromView
-    vec4 clip_depth;  // zz, zw, wz, ww of ClipFromView
-    vec4 view_scale;  // 1/sx, 1/sy; z, w unused
-    vec4 pixel;       // 2/width, 2/height, width, height
-    vec3 ambient;     // [cd/m²] constant radiance from everywhere
-    float exposure;   // factor before the tone map
-    vec3 background;  // linear radiance where nothing is
+    vec4 clip_scale;        // sx, sy, ox, oy of ClipFromView
+    vec4 clip_depth;        // zz, zw, wz, ww of ClipFromView
+    vec4 view_scale;        // 1/sx, 1/sy; z, w unused
+    vec4 pixel;             // 2/width, 2/height, width, height
+    vec3 ambient;           // [cd/m²] constant radiance from everywhere
+    float exposure;         // factor before the tone map
+    vec3 background;        // linear radiance where nothing is
     float environment_lod;  // last level of the prefiltered environment
-    vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
+    vec3 camera_position;   // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
     // One past the last directional light, the last point or spot light that reaches everywhere, and the last one of
     // all (they are stored in this order); w: first word of the slices' lists.

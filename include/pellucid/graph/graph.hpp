@@ -209,4 +209,4 @@ Result<void> Graph<B>::execute(Frame<B>& frame, Around&& around) {
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -93,4 +93,4 @@ std::string to_json(const CoverageError& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

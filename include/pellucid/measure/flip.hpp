@@ -53,7 +53,7 @@ namespace flip {
 [[nodiscard]] Image<double> error_map(const Image<double>& test, const Image<double>& reference, double ppd);
 
 }  // namespace flip
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/flip-inl.hpp>

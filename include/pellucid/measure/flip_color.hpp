@@ -100,4 +100,4 @@ inline constexpr double color_exponent = 0.7, break_distance = 0.4, break_error 
     return std::min(break_error + (1 - break_error) * (power - bend) / (max_color_distance() - bend), 1.0);
 }
 
-}  // namespace pellucid::measure::flip
+}  // namespace pellucid::inline v0_1::measure::flip

@@ -110,4 +110,4 @@ FeatureFilters feature_filters(double ppd) {
     return filters;
 }
 
-}  // namespace pellucid::measure::flip
+}  // namespace pellucid::inline v0_1::measure::flip

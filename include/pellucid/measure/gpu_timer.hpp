@@ -187,4 +187,4 @@ Result<std::span<const GpuSpan>> GpuTimer<B>::collect() {
     return std::span<const GpuSpan>(spans_);
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

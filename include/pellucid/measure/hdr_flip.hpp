@@ -60,7 +60,7 @@ struct ExposureRange {
 [[nodiscard]] std::uint32_t exposure_count(const ExposureRange& range) noexcept;
 
 }  // namespace flip
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/hdr_flip-inl.hpp>

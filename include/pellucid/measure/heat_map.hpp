@@ -83,4 +83,4 @@ HeatMap heat_map(const ImageF& error, const HeatMapOptions& options) {
     return map;
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

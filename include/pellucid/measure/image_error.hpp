@@ -266,4 +266,4 @@ std::string to_json(const Image8Error& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -70,7 +70,7 @@ struct QualityReport {
 template <>
 inline constexpr bool enable_flags<measure::QualityMetrics> = true;
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/quality-inl.hpp>

@@ -35,7 +35,7 @@ struct SsimResult {
 /// One JSON object with the members' names but the map; a mean of nothing becomes null.
 [[nodiscard]] std::string to_json(const SsimResult& result);
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/ssim-inl.hpp>

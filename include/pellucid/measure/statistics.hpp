@@ -61,4 +61,4 @@ struct Summary {
     return summarize(std::move(values)).median;
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

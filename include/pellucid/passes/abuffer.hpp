@@ -110,4 +110,4 @@ void AbufferPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

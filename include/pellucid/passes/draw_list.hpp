@@ -87,4 +87,4 @@ void draw_items(typename B::Commands& cmd, const CullVariants<B>& variants, cons
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

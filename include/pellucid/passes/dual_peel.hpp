@@ -169,4 +169,4 @@ void DualPeelPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
         cmd, {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -218,4 +218,4 @@ void EnvironmentPass<B>::record(typename B::Commands& cmd) const {
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

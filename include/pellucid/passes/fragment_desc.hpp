@@ -37,4 +37,4 @@ struct FragmentDesc {
     }
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

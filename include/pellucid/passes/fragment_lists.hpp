@@ -119,6 +119,6 @@ private:
     std::uint32_t rows_ = 0;  ///< of `nodes_`
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/passes/fragment_lists-inl.hpp>

@@ -102,4 +102,4 @@ private:
     rhi::Unique<typename B::Device, rhi::Pipeline> pipeline_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

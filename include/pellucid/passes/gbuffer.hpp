@@ -107,4 +107,4 @@ void GBufferPass<B>::record(typename B::Commands& cmd, const GBufferTargets& tar
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

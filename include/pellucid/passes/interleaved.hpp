@@ -156,4 +156,4 @@ void InterleavedPass<B>::record_merge(typename B::Commands& cmd, rhi::Texture de
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -143,4 +143,4 @@ void InterleavedSkyxPass<B>::record_merge(typename B::Commands& cmd) const {
                   {.colors = {{.texture = targets_.hdr, .load = rhi::Load::discard}}, .size = targets_.gbuffer.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

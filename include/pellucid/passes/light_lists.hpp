@@ -130,4 +130,4 @@ void LightListsPass<B>::record(typename B::Commands& cmd, const SceneBinding& sc
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -13,8 +13,8 @@ namespace pellucid::inline v0_1 {
 
 enum class ShadingStage : std::uint8_t { compute, fragment };
 enum class Brdf : std::uint8_t {
-    gltf,        ///< GGX (Lagrange form), height-correlated Smith, Schlick, diffuse (1 - F)(1 - metallic) base / pi
-    seed,        ///< the terms of the document the project grew from, kept to be measured
+    gltf,         ///< GGX (Lagrange form), height-correlated Smith, Schlick, diffuse (1 - F)(1 - metallic) base / pi
+    seed,         ///< the terms of the document the project grew from, kept to be measured
     blinn_phong,  ///< likewise
     conserving    ///< gltf's lobe, what it scatters more than once, and a diffuse part with exactly the rest
 };
@@ -194,4 +194,4 @@ void LightingPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

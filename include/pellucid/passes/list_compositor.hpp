@@ -101,4 +101,4 @@ void ListCompositor<B>::record(typename B::Commands& cmd, const StripBand& band,
     lists_.walk(cmd, band, scene, uses, each, group, desc_.audit ? -1.0f : desc_.min_transmittance, name);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

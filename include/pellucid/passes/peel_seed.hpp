@@ -129,4 +129,4 @@ void PeelSeedPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
                       {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

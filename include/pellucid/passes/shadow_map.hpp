@@ -81,4 +81,4 @@ void ShadowMapPass<B>::record(typename B::Commands& cmd, const ShadowMapTarget& 
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

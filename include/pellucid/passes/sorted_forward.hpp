@@ -107,4 +107,4 @@ void SortedForwardPass<B>::record(typename B::Commands& cmd, rhi::Texture hdr, r
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -79,4 +79,4 @@ void TonemapPass<B>::record(typename B::Commands& cmd, rhi::UniformSlice frame) 
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -184,4 +184,4 @@ Dfg<T> DfgTable::average(T roughness) const noexcept {
     return {blend(low.loss, high.loss), blend(low.bias, high.bias)};
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

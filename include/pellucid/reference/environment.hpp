@@ -204,4 +204,4 @@ glm::dvec3 prefiltered_radiance(const ImageF& image, glm::dvec3 axis, double alp
     return integrate_image(image, weight, points) / prefilter_total(alpha);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -189,4 +189,4 @@ Surface<T> unpack_surface(const CompactTexel& texel) noexcept {
     return surface;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

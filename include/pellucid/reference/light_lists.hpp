@@ -64,4 +64,4 @@ struct ViewColumn {
     });
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

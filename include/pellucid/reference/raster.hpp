@@ -223,4 +223,4 @@ inline std::optional<double> RasterTriangle::depth(const SamplePoint& sample) co
     return std::clamp(z / w, 0.0, 1.0);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

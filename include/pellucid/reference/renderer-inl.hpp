@@ -220,4 +220,4 @@ PELLUCID_INLINE Result<std::vector<Fragment>> fragments_at(const Scene& scene, c
     return detail::out_of_memory(options);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

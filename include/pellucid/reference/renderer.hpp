@@ -90,7 +90,7 @@ struct Fragment {
                                                          const RenderOptions& options, std::uint32_t x,
                                                          std::uint32_t y);
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/reference/renderer-inl.hpp>

@@ -186,4 +186,4 @@ Surface<double> surface_at(const TexturedMaterial& material, const Attributes& a
     return s;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -154,4 +154,4 @@ glm::vec<3, T> tone_map(ToneMap operation, T ev, glm::vec<3, T> color) noexcept 
     return mapped;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

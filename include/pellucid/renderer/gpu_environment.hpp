@@ -121,4 +121,4 @@ void GpuEnvironment<B>::bind(rhi::GroupDesc& group, rhi::Uses& uses) const {
     add(PELLUCID_BIND_SKY, sky_, texels_);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -232,4 +232,4 @@ inline void assign_shadows(SceneNeeds& needs, const Scene& scene, const RenderSe
     return needs;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

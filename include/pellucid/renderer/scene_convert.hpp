@@ -168,4 +168,4 @@ inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
     r.flags = (r.flags & ~PELLUCID_DRAW_MIRRORED) | (determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

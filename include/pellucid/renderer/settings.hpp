@@ -138,4 +138,4 @@ struct RenderSettings {
     bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

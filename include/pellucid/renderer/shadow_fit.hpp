@@ -198,4 +198,4 @@ namespace detail {
     return left < 8 && right < 8 && below < 8 && above < 8 && behind < 8;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

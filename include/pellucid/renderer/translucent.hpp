@@ -135,7 +135,7 @@ private:
     std::optional<InterleavedPass<B>> interleaved_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/translucent-inl.hpp>
 #include <pellucid/renderer/translucent_interleaved-inl.hpp>

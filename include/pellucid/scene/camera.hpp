@@ -69,4 +69,4 @@ struct ClipFromView {
     return {glm::dvec4(r[0], 0), glm::dvec4(r[1], 0), glm::dvec4(r[2], 0), glm::dvec4(t, 1)};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -32,8 +32,9 @@ struct Environment {
 [[nodiscard]] inline Result<void> check_environment(const Environment& environment) {
     if (environment.kind != EnvironmentKind::picture) return {};
     if (!environment.picture)
-        return Error{Errc::invalid_argument, "an environment of the kind 'picture' has no picture: read one with read_hdr"};
+        return Error{Errc::invalid_argument,
+                     "an environment of the kind 'picture' has no picture: read one with read_hdr"};
     return check_environment(*environment.picture, "the environment");
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -48,4 +48,4 @@ struct Bounds {
     return camera;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

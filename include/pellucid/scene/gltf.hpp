@@ -43,7 +43,7 @@ struct GltfLimits {
 /// Errc::out_of_memory; the message is "<file>: <JSON pointer>: what, the value, the limit".
 Result<Scene> load_gltf(const std::string& path, const GltfLimits& limits = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/gltf-inl.hpp>

@@ -62,7 +62,7 @@ Result<ImageF> read_pfm(const std::string& path, const ImageLimits& limits = {})
 /// Reads a binary 8-bit PGM ("P5") to `[h, w, 1]`.
 Result<Image8> read_pgm(const std::string& path, const ImageLimits& limits = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/image_file-inl.hpp>

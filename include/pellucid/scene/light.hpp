@@ -79,4 +79,4 @@ struct Light {
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -20,7 +20,7 @@ struct LightField {
 /// the same scene.
 [[nodiscard]] Scene make_light_field(const LightField& field = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/light_field-inl.hpp>

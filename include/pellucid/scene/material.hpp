@@ -70,4 +70,4 @@ struct SceneImage {
     std::string name;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -27,4 +27,4 @@ struct Mesh {
     std::string name;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

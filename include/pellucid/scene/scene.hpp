@@ -29,4 +29,4 @@ struct Scene {
     std::vector<std::string> warnings;  ///< what the loader passed over, a sentence each
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

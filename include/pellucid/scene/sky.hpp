@@ -77,7 +77,7 @@ template <std::floating_point T>
            (texel(0, 1) * (T(1) - fx) + texel(1, 1) * fx) * fy;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/sky-inl.hpp>

@@ -57,7 +57,7 @@ struct SortConflicts {
 /// One sentence for a person: what conflicts, with the first few instances by number; empty where `exact`.
 [[nodiscard]] std::string to_text(const SortConflicts& conflicts);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/sort_conflicts-inl.hpp>

@@ -131,4 +131,4 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
     return plan;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
