@@ -3,6 +3,7 @@
 /// \file
 /// A scene of translucent surfaces, peeled: any of its layers, alone or composited.  PeelPass is driven here without
 /// the renderer, so this is also an example of how passes are put together.
+#include "choice.hpp"
 #include <pellucid/graph/frame.hpp>
 #include <pellucid/passes/peel.hpp>
 #include <pellucid/passes/tonemap.hpp>
@@ -13,11 +14,6 @@
 #include <optional>
 
 namespace pellucid::samples {
-
-/// Layers [first, end) of each pixel, nearest first; `end` 0: all there are.
-struct LayerRange {
-    std::uint32_t first = 0, end = 0;
-};
 
 /// Everything that pictures of one size need.  The scene must have translucent surfaces only, and lights of its own.
 /// `device` must outlive it.

@@ -4,8 +4,8 @@
 /// What the demonstrations share: options, the device's messages, the choice of the backend, the end of a program.
 /// Exit statuses are those of pellucid-render (DESIGN.md).
 #include "../pellucid_render/option_values.hpp"
-#include "../pellucid_render/options.hpp"
-#include <pellucid/core/log.hpp>
+#include "exit_status.hpp"
+#include "messages.hpp"
 #include <pellucid/pellucid.hpp>
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -63,33 +63,18 @@ inline std::optional<int> parse_demo_options(CLI::App& app, int argc, char** arg
     return std::nullopt;
 }
 
-/// Passes on what drivers and validation layers say, and counts it.
-struct DeviceMessages {
-    std::string program;
-    unsigned count = 0;
-
-    [[nodiscard]] LogSink sink() {
-        return {[](void* user, Severity severity, const char* text) {
-                    auto& messages = *static_cast<DeviceMessages*>(user);
-                    if (severity != Severity::info) ++messages.count;
-                    std::fprintf(stderr, "%s: device: %s\n", messages.program.c_str(), text);
-                },
-                this};
-    }
-};
-
 /// Calls `run(std::type_identity<B>, DeviceDesc)`, which returns `Result<void>`, for the backend that was asked for.
 /// \returns the exit status.
 template <class Run>
 int run_demo(const std::string& program, const DemoOptions& options, Run&& run) {
-    DeviceMessages messages{program};
+    Messages messages{.program = program.c_str()};
     const rhi::DeviceDesc desc{.validation = options.validate, .log = messages.sink()};
     const auto done = rhi::with_backend(Backends{}, options.backend,
                                         [&]<rhi::Backend B>(std::type_identity<B> tag) { return run(tag, desc); });
     const Error* error = !done ? &done.error() : !*done ? &done->error() : nullptr;
     if (error != nullptr) return fail(program, error->message, exit_status(error->code));
-    if (options.validate && messages.count != 0)
-        return fail(program, std::to_string(messages.count) + " validation messages", Exit::failed);
+    if (options.validate && messages.errors != 0)
+        return fail(program, std::to_string(messages.errors) + " validation messages", Exit::failed);
     return static_cast<int>(Exit::done);
 }
 
