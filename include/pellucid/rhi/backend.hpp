@@ -175,4 +175,4 @@ template <class T>
     return std::as_bytes(values);
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

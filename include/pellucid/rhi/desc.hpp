@@ -49,7 +49,7 @@ struct DeviceDesc {
     bool gl_spirv = false;               ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
     std::string pipeline_cache = {};     ///< file of the driver's compiled pipelines; empty: none is kept
     bool count_api_calls = false;        ///< put a counting thunk before every API function: `Device::api_calls()`
-    NativeDisplay display = {};          ///< only devices that can present there are used; none: no windows
+    NativeDisplay display = {};          ///< where windows are, for rhi/surface.hpp; none: no windows
     LogSink log = {};
 };
 
@@ -373,7 +373,7 @@ struct QueriesDesc {
 /// A point in the device's work; `Device::wait` and `Device::done` take it.  0 is always done.
 enum class Ticket : std::uint64_t { none = 0 };
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi
 
 template <>
 inline constexpr bool pellucid::enable_flags<pellucid::rhi::BufferUsage> = true;

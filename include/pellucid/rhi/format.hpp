@@ -66,4 +66,4 @@ static_assert(sizeof format_table / sizeof format_table[0] == static_cast<std::s
     return detail::format_table[static_cast<std::size_t>(format)];
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

@@ -27,4 +27,4 @@ struct SpecConstant {
     friend constexpr bool operator==(SpecConstant, SpecConstant) = default;
 };
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

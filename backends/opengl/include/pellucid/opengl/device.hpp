@@ -85,6 +85,7 @@ public:
     [[nodiscard]] GLuint gl_name(rhi::Pipeline pipeline) const { return objects_.pipelines[pipeline].program; }
 
 private:
+    friend class Surface;
     struct Fence {
         GLsync sync = nullptr;
         std::uint64_t ticket = 0;
@@ -108,6 +109,7 @@ private:
     std::deque<RasterState> rasters_;  ///< stable addresses; each state once
     std::unique_ptr<ProgramCache> programs_;
     LogSink log_;
+    rhi::NativeDisplay display_;
     bool validation_ = false, gl_spirv_ = false, counting_ = false;
 
     std::uint32_t frames_in_flight_ = 2;
@@ -117,4 +119,4 @@ private:
     Fence fences_[4] = {};                         ///< by slot
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -87,6 +87,7 @@ public:
     [[nodiscard]] std::uint64_t memory_used() const { return context_.memory.used_bytes(); }
 
 private:
+    friend class Surface;
     Device() : commands_(context_) {}
     [[nodiscard]] Result<void> init(const rhi::DeviceDesc& desc);
 
@@ -94,4 +95,4 @@ private:
     Commands commands_;
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

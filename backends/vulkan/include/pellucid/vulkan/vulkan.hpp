@@ -29,4 +29,4 @@ struct Vulkan {
 
 static_assert(rhi::Backend<Vulkan>);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
