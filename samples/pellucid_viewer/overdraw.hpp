@@ -2,8 +2,8 @@
 #pragma once
 /// \file
 /// Overdraw: how many fragments are rasterised at each pixel, opaque, masked and translucent ones, also those behind
-/// what is opaque; back faces that the picture culls are culled.  It is what drawing the scene in any order without a
-/// depth test would shade: a property of scene and camera, not of a method.
+/// what is opaque, and what a mask cuts out; back faces that the picture culls are culled.  It is what drawing the
+/// scene in any order without a depth test would shade: a property of scene and camera, not of a method.
 #include <pellucid/passes/draw_list.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/rhi/readback.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "panel_parts.hpp"
 #include "widgets.hpp"
+#include <algorithm>
 #include <cmath>
 
 namespace pellucid::samples::viewer {
@@ -33,9 +34,10 @@ void legend(ImDrawList& list, const Layout& layout, const Legend& legend) {
     constexpr float bar = 300, thick = 14;
     const float x = static_cast<float>(layout.picture.x) + 16,
                 y = static_cast<float>(layout.picture.height) - 16 - 2 * thick - 24;
-    list.AddRectFilled({x - 8, y - 24}, {x + bar + 36, y + thick + 24}, paper);
     char text[160];
     std::snprintf(text, sizeof text, "%s (mean %.3g)", legend.what.c_str(), legend.mean);
+    const float wide = std::max(bar + 28, ImGui::CalcTextSize(text).x);
+    list.AddRectFilled({x - 8, y - 24}, {x + wide + 8, y + thick + 24}, paper);
     list.AddText({x, y - 20}, ink, text);
     for (int i = 0; i < static_cast<int>(bar); ++i) {
         const measure::Rgb8 c = measure::heat_color(i / static_cast<double>(bar - 1));

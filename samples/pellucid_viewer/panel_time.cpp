@@ -8,7 +8,7 @@ namespace {
 
 void plot(const char* id, const char* what, const Ring& ring) {
     char text[96];
-    std::snprintf(text, sizeof text, "%s: %.2f ms, median %.2f, most %.2f", what, static_cast<double>(ring.last()),
+    std::snprintf(text, sizeof text, "%s: %.4g ms, median %.4g, most %.4g", what, static_cast<double>(ring.last()),
                   ring.median(), static_cast<double>(ring.max()));
     ImGui::TextUnformatted(text);
     ImGui::PlotLines(id, ring.data(), static_cast<int>(ring.count()), static_cast<int>(ring.offset()), nullptr, 0,
@@ -62,18 +62,19 @@ void resource_table(const RenderStats& stats) {
 void time_tab(const Facts& facts) {
     const RenderStats& stats = facts.left.stats;
     if (facts.history.gpu.count() > 0)
-        plot("##gpu", "GPU, sum of passes", facts.history.gpu);
+        plot("##gpu", "GPU", facts.history.gpu);
     else
         ImGui::TextWrapped("This device has no timestamps: the wall clock of the frame it is.");
-    plot("##wall", "wall clock of the frame", facts.history.wall);
+    plot("##wall", "frame", facts.history.wall);
+    hint("the wall clock, the panel and the canvas included");
     if (facts.device.software && facts.history.gpu.count() > 0)
         ImGui::TextWrapped("This device is a CPU: its timestamps need not bracket the work of a pass.");
-    ImGui::Text("%u draws, %llu triangles, %u lights (%s)", stats.draws,
+    ImGui::Text("draws %u, triangles %llu, lights %u (%s)", stats.draws,
                 static_cast<unsigned long long>(stats.triangles), stats.lights, name(stats.lighting));
-    ImGui::Text("%s in all, %u pipelines", bytes_text(stats.bytes).c_str(), stats.pipelines);
+    ImGui::Text("pipelines %u, memory %s", stats.pipelines, bytes_text(stats.bytes).c_str());
     const TranslucencyStats& t = stats.translucency;
-    if (t.layers > 0) ImGui::Text("%u layers%s", t.layers, t.truncated ? ", some were left out" : "");
-    if (t.bands > 0) ImGui::Text("%u bands, %s of fragments", t.bands, bytes_text(t.pool_bytes).c_str());
+    if (t.layers > 0) ImGui::Text("layers %u%s", t.layers, t.truncated ? ", some were left out" : "");
+    if (t.bands > 0) ImGui::Text("bands %u, stored fragments %s", t.bands, bytes_text(t.pool_bytes).c_str());
     if (!stats.lighting_why.empty()) ImGui::TextWrapped("lights: %s", stats.lighting_why.c_str());
     if (!stats.shadows_why.empty()) ImGui::TextWrapped("shadows: %s", stats.shadows_why.c_str());
     ImGui::Spacing();

@@ -53,7 +53,8 @@ Result<bool> Session<B>::frame(const Input& input, Extent2D size) {
     const ImDrawData& lists = state_.ui.end();
     PELLUCID_CHECK(compose(&lists));
     PELLUCID_CHECK(save());
-    tell_frame(start);
+    state_.facts.history.wall.push(
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
     return true;
 }
 
@@ -67,6 +68,11 @@ Result<void> Session<B>::draw_pictures() {
     if (left_.rebuilt()) {
         facts.history.clear();
         facts.quality_is_old = true;
+    }
+    if (drawn) {  // before anything else is drawn with it: a count of layers is a frame too
+        const auto spans = left_.renderer()->gpu_times();
+        if (!spans) return said(spans);
+        facts.history.push_gpu(*spans);
     }
     left_source_ = {.texture = left_.renderer()->display()};
     facts.left.drawn = drawn;
@@ -191,15 +197,6 @@ Result<void> Session<B>::save() {
         PELLUCID_CHECK(compose(nullptr));
     }
     return {};
-}
-
-template <rhi::Backend B>
-void Session<B>::tell_frame(std::chrono::steady_clock::time_point start) {
-    Facts& facts = state_.facts;
-    const auto spans = left_.renderer()->gpu_times();
-    if (spans) facts.history.push_gpu(*spans);
-    facts.history.wall.push(
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
 }
 
 }  // namespace pellucid::samples::viewer

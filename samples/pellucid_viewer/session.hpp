@@ -82,7 +82,6 @@ private:
         return {};
     }
     void tell_device();
-    void tell_frame(std::chrono::steady_clock::time_point start);
 
     std::unique_ptr<typename B::Device> device_;  // first: everything else goes before it
     State& state_;

@@ -11,7 +11,9 @@ Input input_of(const Window& window, double seconds) {
     input.left = window.button_down(GLFW_MOUSE_BUTTON_LEFT);
     input.right = window.button_down(GLFW_MOUSE_BUTTON_RIGHT);
     input.middle = window.button_down(GLFW_MOUSE_BUTTON_MIDDLE);
-    const auto way = [&](int forth, int back) { return (window.down(forth) ? 1.0 : 0.0) - (window.down(back) ? 1.0 : 0.0); };
+    const auto way = [&](int forth, int back) {
+        return (window.down(forth) ? 1.0 : 0.0) - (window.down(back) ? 1.0 : 0.0);
+    };
     input.move_right = way(GLFW_KEY_D, GLFW_KEY_A);
     input.move_up = way(GLFW_KEY_E, GLFW_KEY_Q);
     input.move_forward = way(GLFW_KEY_W, GLFW_KEY_S);
