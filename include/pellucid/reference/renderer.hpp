@@ -21,6 +21,7 @@
 /// texture); blended ones cast none.  A point's own triangle never shadows it.
 ///
 /// Link `pellucid::reference` (it needs TBB).
+#include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <pellucid/core/config.hpp>
@@ -53,6 +54,8 @@ struct RenderOptions {
     /// Called with the share that is done: rising, 1 at last, one call at a time, from any thread.  Null: not called.
     void (*progress)(void* user, double fraction) = nullptr;
     void* user = nullptr;  ///< passed to `progress`
+    /// Any thread may set it: then no further tile of pixels is begun, and the picture is not complete.  Null: never.
+    const std::atomic<bool>* stop = nullptr;
 };
 
 struct Picture {
@@ -65,6 +68,7 @@ struct Picture {
     /// that rasterises on a grid of 1/256 pixel, and rounds to single precision; else 0.  Empty unless `stability` was
     /// asked for.
     Image8 stable;
+    bool complete = true;  ///< false where RenderOptions::stop left pixels out: they are 0
 };
 
 /// One fragment of a pixel.
