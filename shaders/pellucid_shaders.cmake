@@ -8,7 +8,7 @@
 # The global property PELLUCID_SHADERS_OF_<target> lists them all as <stem>/<name>.
 # Includes are found in the file's own folder, in Pellucid's shaders/ and include/, and in the target's include folders;
 # changing any of them rebuilds what includes it.
-find_program(PELLUCID_GLSLANG NAMES glslangValidator glslang)  # its name until and from version 13
+find_program(PELLUCID_GLSLANG NAMES glslangValidator glslang)  # one program: renamed in 12.3
 find_program(PELLUCID_SPIRV_VAL spirv-val)
 
 function(pellucid_add_shader target stem)
