@@ -52,6 +52,7 @@ public:
     /// check_environment, check_shadows and of creation.
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
+    ~Renderer();  ///< declared, so that it is among what a backend's library instantiates
 
     /// Records and submits one frame; returns at once, but for methods that must see on the CPU what the GPU counted
     /// (settings.transparency: abuffer waits once).  Errors: device loss, memory, a memory budget that is too small.
@@ -146,6 +147,9 @@ private:
     std::vector<std::string> warnings_;
     std::uint32_t pipelines_ = 0;
 };
+
+template <rhi::Backend B>
+Renderer<B>::~Renderer() = default;
 
 }  // namespace pellucid::inline v0_1
 

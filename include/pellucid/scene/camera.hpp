@@ -22,7 +22,7 @@ struct Camera {
     double near = 0.1;                ///< [m] > 0 for perspective, >= 0 for orthographic
     double far = 0;                   ///< [m] orthographic: > near; perspective: ignored (infinite)
     glm::dmat4 world_from_view{1.0};  ///< rigid: rotation and translation only
-    std::string name;
+    std::string name = {};
 };
 
 /// `clip = (e.x sx + ox, e.y sy + oy, e.z zz + zw, e.z wz + ww)` for a point `e` in view space: one form for both

@@ -34,7 +34,7 @@ struct GltfLimits {
     std::uint32_t max_growth = 128;
     std::uint64_t max_all_image_bytes = std::uint64_t{4} << 30u;  ///< [B] of all pictures decoded
     std::uint32_t max_node_depth = 1024;
-    ImageLimits image;  ///< for each picture
+    ImageLimits image = {};  ///< for each picture
 };
 
 /// Reads a .gltf or .glb file (told apart by its first bytes) and the files it names, which are looked up beside it;

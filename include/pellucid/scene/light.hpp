@@ -27,7 +27,7 @@ struct Light {
     glm::dvec3 position{0, 0, 0};            ///< [m] world
     glm::dvec3 direction{0, 0, -1};          ///< world, unit: the way the light travels
     bool shadows = true;                     ///< it casts shadows where a renderer is asked for them
-    std::string name;
+    std::string name = {};
 };
 
 /// Whether a point or spot light ends at its range.

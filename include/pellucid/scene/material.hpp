@@ -51,23 +51,23 @@ struct Material {
     /// AlphaMode::blend: radiance is already multiplied by alpha, as fire and glows are drawn: with alpha 0 it is
     /// added. glTF cannot say it.
     bool premultiplied = false;
-    TextureRef base_color_texture;          ///< sRGB colour, linear alpha
-    TextureRef metallic_roughness_texture;  ///< linear: g roughness, b metallic
-    TextureRef normal_texture;              ///< linear: tangent-space normal, [0,1] → [-1,1]
-    TextureRef occlusion_texture;           ///< linear: r
-    TextureRef emissive_texture;            ///< sRGB
-    std::string name;
+    TextureRef base_color_texture = {};          ///< sRGB colour, linear alpha
+    TextureRef metallic_roughness_texture = {};  ///< linear: g roughness, b metallic
+    TextureRef normal_texture = {};              ///< linear: tangent-space normal, [0,1] → [-1,1]
+    TextureRef occlusion_texture = {};           ///< linear: r
+    TextureRef emissive_texture = {};            ///< sRGB
+    std::string name = {};
 };
 
 struct SceneTexture {
     std::uint32_t image = no_index;  ///< index into Scene::images
-    TextureSampler sampler;
+    TextureSampler sampler = {};
 };
 
 /// 8-bit RGBA pictures, row 0 at the top; whether the texels are sRGB or linear follows from their use.
 struct SceneImage {
-    Image8 pixels;  ///< [h, w, 4]
-    std::string name;
+    Image8 pixels = {};  ///< [h, w, 4]
+    std::string name = {};
 };
 
 }  // namespace pellucid::inline v0_1
