@@ -16,6 +16,7 @@
 #define PELLUCID_ENVIRONMENT_THREADS 8    // workgroup edge
 
 PELLUCID_GPU_BEGIN
+/// Push data of what makes one level of a cube map.
 struct EnvironmentPush {
     uint size;    // side of the level that is written [texel]
     float alpha;  // of the lobe

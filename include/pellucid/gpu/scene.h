@@ -55,6 +55,7 @@
 PELLUCID_GPU_BEGIN
 
 // Group 0, binding PELLUCID_BIND_FRAME.
+/// What is the same for all of a view: projection, lights, exposure.  Uniform block of group 0.
 struct FrameParams {
     vec4 world_x;  // columns of world_from_view (its rotation); w unused
     vec4 world_y;
@@ -80,6 +81,7 @@ PELLUCID_GPU_OFFSET(FrameParams, ambient, 112)
 PELLUCID_GPU_OFFSET(FrameParams, light_ends, 160)
 
 // Group 0, binding PELLUCID_BIND_RECORDS: one an instance, in draw order; the base instance is its index.
+/// Where an instance is, and what it is made of.  One an instance, in group 0.
 struct DrawRecord {
     vec3 axis_x;  // columns of view_from_object
     uint first_vertex;
@@ -102,6 +104,7 @@ PELLUCID_GPU_OFFSET(DrawRecord, origin, 48)
 PELLUCID_GPU_OFFSET(DrawRecord, normal_z, 96)
 
 // Scene group, PELLUCID_BIND_VERTICES.
+/// A vertex as it is pulled from the storage buffer of the scene.
 struct Vertex {
     vec3 position;  // [m] object space
     float u0;
@@ -115,6 +118,7 @@ PELLUCID_GPU_SIZE(Vertex, 64)
 PELLUCID_GPU_OFFSET(Vertex, tangent, 32)
 PELLUCID_GPU_OFFSET(Vertex, color, 56)
 
+/// Which layer of which array a material samples, and how.
 struct TextureUse {
     vec4 matrix;  // u' = x u + y v + offset.x, v' = z u + w v + offset.y (KHR_texture_transform)
     vec2 offset;
@@ -124,6 +128,7 @@ struct TextureUse {
 PELLUCID_GPU_SIZE(TextureUse, 32)
 
 // Scene group, PELLUCID_BIND_MATERIALS.
+/// A material in the table of the scene.
 struct MaterialRecord {
     vec4 base_color;
     vec3 emissive;
@@ -148,6 +153,7 @@ PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 // Scene group, PELLUCID_BIND_LIGHTS: in the order of FrameParams::light_ends.  Where PELLUCID_LIGHT_BLOCK or fewer are
 // looped over they are read from the uniform block, PELLUCID_BIND_LIGHT_BLOCK, which GPUs read faster.
 #define PELLUCID_LIGHT_BLOCK 64
+/// A light in view space.
 struct LightRecord {
     vec3 position;                // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited

@@ -15,6 +15,7 @@
 namespace pellucid::inline v0_1 {
 namespace measure {
 
+/// Which metrics `quality` computes: flags.
 enum class QualityMetrics : std::uint32_t {
     errors = 1,  ///< image_error.hpp, absolute and scaled
     tone_mapped_psnr = 2,
@@ -25,6 +26,7 @@ enum class QualityMetrics : std::uint32_t {
     all = 63
 };
 
+/// Which metrics, over which pixels.
 struct QualityOptions {
     QualityMetrics metrics = QualityMetrics::all;
     /// Null, or `[h, w, 1]`: 255 = stable.  Every metric but the coverage is of these pixels; the coverage has the

@@ -10,6 +10,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How far dual peeling goes.
 struct DualPeelDesc {
     FragmentDesc fragments = {};
     std::uint32_t max_passes = 0;  ///< each peels two layers; 0: as many as there are

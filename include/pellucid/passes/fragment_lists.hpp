@@ -18,6 +18,7 @@ enum class FragmentContent : std::uint8_t {
     surfaces  ///< to be lit by whoever walks them, 32 bytes: normals within 0.0025°, the rest in 16 bits, metallic in 8
 };
 
+/// What the lists hold, in how much memory.
 struct FragmentListsDesc {
     FragmentDesc fragments = {};
     FragmentContent content = FragmentContent::colors;

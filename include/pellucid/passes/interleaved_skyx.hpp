@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The G-buffer that the layers share, and one of its peculiarities.
 struct InterleavedSkyxDesc {
     GBufferDesc gbuffer = {};  ///< as that of the opaque pass; `culls` those of translucent instances
     bool alpha_gain = false;   ///< see InterleavedSkyxPass

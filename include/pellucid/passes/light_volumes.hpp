@@ -24,6 +24,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Draws the volumes of lights with a range; the file's comment says how.
 template <rhi::Backend B>
 class LightVolumesPass {
 public:

@@ -7,6 +7,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The lists, and where a pixel ends.
 struct ListCompositorDesc {
     FragmentListsDesc lists = {};
     float min_transmittance = 0;  ///< a pixel is done where no more gets through; 0: only what nothing can change

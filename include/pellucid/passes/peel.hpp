@@ -13,6 +13,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How far peeling goes.
 struct PeelDesc {
     FragmentDesc fragments = {};
     std::uint32_t max_layers = 0;   ///< 0: as many as there are

@@ -11,6 +11,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How many layers, and which of two composites.
 struct PeelSeedDesc {
     FragmentDesc fragments = {};
     std::uint32_t layers = PELLUCID_PEEL_SEED_LAYERS;  ///< > 0

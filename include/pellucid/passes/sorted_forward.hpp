@@ -31,6 +31,7 @@ inline void sort_back_to_front(std::vector<SortedItem>& items) {
     });
 }
 
+/// How fragments are lit, and which pipelines are built.
 struct SortedForwardDesc {
     Brdf brdf = Brdf::gltf;
     std::uint32_t needs = PELLUCID_NEED_ALL;

@@ -12,6 +12,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// An environment's light on a device: the sky's table or a prefiltered cube map, and the table of albedos.
 template <rhi::Backend B>
 class GpuEnvironment {
 public:

@@ -46,6 +46,7 @@ struct LightingChanges {
 template <rhi::Backend B>
 class Translucent {
 public:
+    /// The frame's targets that methods draw into and test against.
     struct Targets {
         GraphTexture hdr, depth;  ///< rgba16_float, read and written; d32_float, read
     };

@@ -10,16 +10,19 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Where light from all around comes from.
 enum class EnvironmentKind : std::uint8_t {
     none,
     sky,     ///< procedural: scene/sky.hpp
     picture  ///< equirectangular, `[h, 2h, 3]` linear radiance, y up; which way: reference/environment.hpp
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(EnvironmentKind kind) noexcept {
     constexpr const char* names[] = {"none", "sky", "picture"};
     return names[static_cast<std::size_t>(kind)];
 }
 
+/// Light from all around.
 struct Environment {
     EnvironmentKind kind = EnvironmentKind::none;
     Sky sky = {};

@@ -15,6 +15,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What a picture may take before a decoder refuses it.
 struct ImageLimits {
     std::uint32_t max_side = 16384;                     ///< [texel]
     std::uint64_t max_bytes = std::uint64_t{1} << 30u;  ///< [B] of the decoded picture, 4 a texel

@@ -32,6 +32,7 @@ namespace pellucid::inline v0_1 {
 
 /// What the detector found.  Instances are indices into Scene::instances, in rising order.
 struct SortConflicts {
+    /// Two translucent instances without a right order.
     struct Pair {
         std::uint32_t first = 0, second = 0;  ///< first < second
         friend bool operator==(const Pair&, const Pair&) = default;
