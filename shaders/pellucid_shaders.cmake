@@ -8,13 +8,13 @@
 # The global property PELLUCID_SHADERS_OF_<target> lists them all as <stem>/<name>.
 # Includes are found in the file's own folder, in Pellucid's shaders/ and include/, and in the target's include folders;
 # changing any of them rebuilds what includes it.
-find_program(PELLUCID_GLSLANG glslangValidator)
+find_program(PELLUCID_GLSLANG NAMES glslangValidator glslang)  # one program: renamed in 12.3
 find_program(PELLUCID_SPIRV_VAL spirv-val)
-if(NOT PELLUCID_GLSLANG)
-  message(FATAL_ERROR "glslangValidator was not found: install the package glslang-tools")
-endif()
 
 function(pellucid_add_shader target stem)
+  if(NOT PELLUCID_GLSLANG)
+    message(FATAL_ERROR "glslangValidator was not found: install the package glslang-tools")
+  endif()
   cmake_parse_arguments(PARSE_ARGV 2 arg "" "" "FILES;EXACT")
   set(folder ${CMAKE_CURRENT_BINARY_DIR}/generated/pellucid/shaders)
   file(MAKE_DIRECTORY ${folder}/${stem})

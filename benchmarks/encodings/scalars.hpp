@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// The ways of storing numbers in [0,1]: roughness and metallic in unorms of some width, base colour in eight bits.
+#include <algorithm>
 #include <array>
 #include <pellucid/reference/srgb.hpp>
 

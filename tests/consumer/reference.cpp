@@ -5,11 +5,9 @@
 
 int main() {
     pellucid::Scene scene;
-    pellucid::Mesh mesh;
-    mesh.positions = {{-9, -9, -3}, {9, -9, -3}, {0, 9, -3}};
-    mesh.normals.assign(3, {0, 0, 1});
-    mesh.indices = {0, 1, 2};
-    scene.meshes.push_back(mesh);
+    scene.meshes.push_back({.positions = {{-9, -9, -3}, {9, -9, -3}, {0, 9, -3}},
+                            .normals = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}},
+                            .indices = {0, 1, 2}});
     scene.materials.push_back(
         {.base_color = {0.5f, 0.5f, 0.5f, 0.5f}, .alpha_mode = pellucid::AlphaMode::blend, .unlit = true});
     scene.instances.push_back({});

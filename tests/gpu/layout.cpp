@@ -2,6 +2,7 @@
 // The structs that C++ and GLSL share: what the compiler says of each member against what the built shaders say
 // (SPIR-V's own OpMemberName, OpMemberDecorate Offset and OpDecorate ArrayStride), for Vulkan and for OpenGL.
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <map>
 #include <span>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <limits>
 #include <pellucid/reference/dfg_table.hpp>
 #include "sampling.hpp"
 #include "support/catch.hpp"

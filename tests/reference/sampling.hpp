@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// Directions for the reference tests: a seeded sequence that is the same with every standard library.
+#include <cstdint>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>

@@ -37,6 +37,7 @@ namespace pellucid::inline v0_1::reference {
 /// Longest side of a picture.
 inline constexpr std::uint32_t max_picture_side = 16384;
 
+/// What the reference renderer draws with.
 struct RenderOptions {
     Extent2D size{256, 256};           ///< [pixel] each side in 1 … `max_picture_side`
     glm::dvec3 background{0, 0, 0};    ///< linear radiance where nothing is; finite
@@ -58,6 +59,7 @@ struct RenderOptions {
     const std::atomic<bool>* stop = nullptr;
 };
 
+/// What it drew.
 struct Picture {
     ImageF radiance;  ///< [h, w, 3] linear, before tone mapping; computed in double and rounded once
     /// [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha.

@@ -52,10 +52,19 @@ public:
     /// check_environment, check_shadows and of creation.
     [[nodiscard]] static Result<std::unique_ptr<Renderer>> create(typename B::Device& device, const Scene& scene,
                                                                   const RenderSettings& settings = {});
+    ~Renderer();  ///< declared, so that it is among what a backend's library instantiates
 
     /// Records and submits one frame; returns at once, but for methods that must see on the CPU what the GPU counted
     /// (settings.transparency: abuffer waits once).  Errors: device loss, memory, a memory budget that is too small.
     [[nodiscard]] Result<rhi::Ticket> render(const Camera& camera);
+
+    /// Lights that take the place of the scene's from the next frame on; nothing is built again, and the picture is
+    /// that of a new renderer, bit for bit.  As many of them as the scene has, in its order, each of the same kind,
+    /// with a range where that one has one and, where shadow maps are drawn, with as many maps (renderer/needs.hpp:
+    /// spots wider than widest_shadow_spot take six).  Error: `invalid_argument`, and nothing changes.
+    [[nodiscard]] Result<void> set_lights(std::span<const Light> lights);
+    /// RenderSettings::exposure_ev from the next frame on.
+    void set_exposure(float ev) noexcept { settings_.exposure_ev = ev; }
 
     /// `[h, w, 4]` linear radiance before the tone curve, of the last frame; waits for it.
     [[nodiscard]] Result<ImageF> read_hdr() { return read_float(graph_[hdr_]); }
@@ -139,6 +148,9 @@ private:
     std::uint32_t pipelines_ = 0;
 };
 
-}  // namespace pellucid
+template <rhi::Backend B>
+Renderer<B>::~Renderer() = default;
+
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/renderer-inl.hpp>

@@ -182,6 +182,7 @@ private:
 
 }  // namespace counted
 
+/// A backend that counts the calls that reach the one it wraps.
 template <rhi::Backend B>
 struct Counted {
     static constexpr const char* name = B::name;

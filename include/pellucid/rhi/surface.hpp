@@ -17,6 +17,7 @@
 
 namespace pellucid::inline v0_1::rhi {
 
+/// A window to show textures in.
 struct SurfaceDesc {
     std::uintptr_t window = 0;  ///< X11: the `Window`
     bool vsync = true;          ///< wait for the display's refresh; false: show at once, pictures may tear

@@ -15,6 +15,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The backend `B` with every call checked; the file's comment says what is found.
 template <rhi::Backend B>
 struct Validated {
     static constexpr const char* name = B::name;

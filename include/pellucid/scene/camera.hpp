@@ -11,6 +11,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How a view shrinks with distance, or not.
 enum class Projection { perspective, orthographic };
 
 /// A glTF camera placed in the world.  Depth is reversed; a perspective far plane is infinitely far away.
@@ -22,7 +23,7 @@ struct Camera {
     double near = 0.1;                ///< [m] > 0 for perspective, >= 0 for orthographic
     double far = 0;                   ///< [m] orthographic: > near; perspective: ignored (infinite)
     glm::dmat4 world_from_view{1.0};  ///< rigid: rotation and translation only
-    std::string name;
+    std::string name = {};
 };
 
 /// `clip = (e.x sx + ox, e.y sy + oy, e.z zz + zw, e.z wz + ww)` for a point `e` in view space: one form for both
@@ -69,4 +70,4 @@ struct ClipFromView {
     return {glm::dvec4(r[0], 0), glm::dvec4(r[1], 0), glm::dvec4(r[2], 0), glm::dvec4(t, 1)};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -34,7 +34,7 @@ struct GltfLimits {
     std::uint32_t max_growth = 128;
     std::uint64_t max_all_image_bytes = std::uint64_t{4} << 30u;  ///< [B] of all pictures decoded
     std::uint32_t max_node_depth = 1024;
-    ImageLimits image;  ///< for each picture
+    ImageLimits image = {};  ///< for each picture
 };
 
 /// Reads a .gltf or .glb file (told apart by its first bytes) and the files it names, which are looked up beside it;
@@ -43,7 +43,7 @@ struct GltfLimits {
 /// Errc::out_of_memory; the message is "<file>: <JSON pointer>: what, the value, the limit".
 Result<Scene> load_gltf(const std::string& path, const GltfLimits& limits = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/gltf-inl.hpp>

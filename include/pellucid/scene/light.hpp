@@ -15,8 +15,10 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The three kinds of KHR_lights_punctual.
 enum class LightKind : std::uint8_t { directional, point, spot };
 
+/// A punctual light; `check_light` checks the ranges.
 struct Light {
     LightKind kind = LightKind::point;
     glm::vec3 color{1, 1, 1};                ///< linear, each >= 0
@@ -27,7 +29,7 @@ struct Light {
     glm::dvec3 position{0, 0, 0};            ///< [m] world
     glm::dvec3 direction{0, 0, -1};          ///< world, unit: the way the light travels
     bool shadows = true;                     ///< it casts shadows where a renderer is asked for them
-    std::string name;
+    std::string name = {};
 };
 
 /// Whether a point or spot light ends at its range.
@@ -79,4 +81,4 @@ struct Light {
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

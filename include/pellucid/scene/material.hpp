@@ -11,10 +11,14 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What alpha means: nothing, a hole below the cutoff, or coverage.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+/// Between texels, or the nearest.
 enum class TextureFilter : std::uint8_t { nearest, linear };
+/// What is beyond the border of a texture.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 
+/// How a texture is sampled, as glTF has it.
 struct TextureSampler {
     TextureFilter min = TextureFilter::linear;
     TextureFilter mag = TextureFilter::linear;
@@ -37,6 +41,7 @@ struct TextureRef {
     [[nodiscard]] bool used() const noexcept { return texture != no_index; }
 };
 
+/// A metallic-roughness material of glTF 2.0.
 struct Material {
     glm::vec4 base_color{1, 1, 1, 1};  ///< linear, straight alpha, each in [0,1]
     float metallic = 1;                ///< [0,1]
@@ -51,23 +56,24 @@ struct Material {
     /// AlphaMode::blend: radiance is already multiplied by alpha, as fire and glows are drawn: with alpha 0 it is
     /// added. glTF cannot say it.
     bool premultiplied = false;
-    TextureRef base_color_texture;          ///< sRGB colour, linear alpha
-    TextureRef metallic_roughness_texture;  ///< linear: g roughness, b metallic
-    TextureRef normal_texture;              ///< linear: tangent-space normal, [0,1] → [-1,1]
-    TextureRef occlusion_texture;           ///< linear: r
-    TextureRef emissive_texture;            ///< sRGB
-    std::string name;
+    TextureRef base_color_texture = {};          ///< sRGB colour, linear alpha
+    TextureRef metallic_roughness_texture = {};  ///< linear: g roughness, b metallic
+    TextureRef normal_texture = {};              ///< linear: tangent-space normal, [0,1] → [-1,1]
+    TextureRef occlusion_texture = {};           ///< linear: r
+    TextureRef emissive_texture = {};            ///< sRGB
+    std::string name = {};
 };
 
+/// A picture and how it is sampled.
 struct SceneTexture {
     std::uint32_t image = no_index;  ///< index into Scene::images
-    TextureSampler sampler;
+    TextureSampler sampler = {};
 };
 
 /// 8-bit RGBA pictures, row 0 at the top; whether the texels are sRGB or linear follows from their use.
 struct SceneImage {
-    Image8 pixels;  ///< [h, w, 4]
-    std::string name;
+    Image8 pixels = {};  ///< [h, w, 4]
+    std::string name = {};
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

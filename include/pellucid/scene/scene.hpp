@@ -18,15 +18,16 @@ struct Instance {
     glm::dmat4 world_from_object{1.0};
 };
 
+/// Everything that is drawn, in arrays that refer to each other by index.
 struct Scene {
-    std::vector<Mesh> meshes;
-    std::vector<Instance> instances;
-    std::vector<Material> materials;  ///< at least one where there are meshes
-    std::vector<SceneTexture> textures;
-    std::vector<SceneImage> images;
-    std::vector<Light> lights;
-    std::vector<Camera> cameras;
-    std::vector<std::string> warnings;  ///< what the loader passed over, a sentence each
+    std::vector<Mesh> meshes = {};
+    std::vector<Instance> instances = {};
+    std::vector<Material> materials = {};  ///< at least one where there are meshes
+    std::vector<SceneTexture> textures = {};
+    std::vector<SceneImage> images = {};
+    std::vector<Light> lights = {};
+    std::vector<Camera> cameras = {};
+    std::vector<std::string> warnings = {};  ///< what the loader passed over, a sentence each
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

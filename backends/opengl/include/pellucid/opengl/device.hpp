@@ -28,6 +28,7 @@ namespace pellucid::inline v0_1::opengl {
 
 class ProgramCache;
 
+/// An OpenGL 4.5 context without a window, and everything that is made in it; used on the thread that made it.
 class Device {
 public:
     /// `no_device` where none fits `desc.device` (with what was found), `unsupported` where one lacks what is asked

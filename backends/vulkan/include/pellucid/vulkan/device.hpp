@@ -21,10 +21,12 @@ struct NativeDevice {
     std::uint32_t family;
     DeviceTable* table;  ///< a test may replace entries to make calls fail
 };
+/// A texture as Vulkan knows it, for code that mixes its own Vulkan with this library's.
 struct NativeTexture {
     VkImage image;
     VkImageView view;  ///< all levels and layers
 };
+/// A pipeline as Vulkan knows it.
 struct NativePipeline {
     VkPipeline pipeline;
     VkPipelineLayout layout;

@@ -14,6 +14,7 @@ namespace vulkan {
 class Surface;  // vulkan/surface.hpp
 }
 
+/// The backend for Vulkan 1.3: the type that passes, renderers and `rhi::with_backend` are instantiated with.
 struct Vulkan {
     static constexpr const char* name = "vulkan";
     using Device = vulkan::Device;
