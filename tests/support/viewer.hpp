@@ -51,12 +51,14 @@ struct TestViewer {
     /// Frames until nothing is computed beside them any more, at most for 60 s.
     void settle() {
         const auto start = std::chrono::steady_clock::now();
-        while (state.busy() || session->measuring()) {
-            REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
-            if (!session->measuring()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-            frame();
-        }
-        frame();
+        do {
+            while (state.busy() || session->measuring()) {
+                REQUIRE(std::chrono::steady_clock::now() - start < std::chrono::seconds(60));
+                if (!session->measuring()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+                frame();
+            }
+            frame();  // which may begin something else
+        } while (state.busy() || session->measuring());
     }
     /// What a renderer of its own displays of the same scene and camera.
     [[nodiscard]] Image8 expected(RenderSettings settings) {
