@@ -2,8 +2,8 @@
 #pragma once
 /// \file
 /// Directions for the reference tests: a seeded sequence that is the same with every standard library.
-#include <cstdint>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <numbers>
