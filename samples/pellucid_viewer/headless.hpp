@@ -22,25 +22,28 @@ template <rhi::Backend B>
     print(times, desc.pipeline_cache);
     const auto go_on = [&]() -> Result<void> {
         PELLUCID_CHECK(viewer.frame(input, options.size));
-        if (!state.facts.left.problem.empty()) return Error{Errc::invalid_argument, state.facts.left.problem};
-        if (!state.facts.right.problem.empty()) return Error{Errc::invalid_argument, state.facts.right.problem};
+        for (const Error& error : viewer.session().problems())
+            if (!error.message.empty()) return error;
         return {};
     };
+    const auto busy = [&] { return state.busy() || viewer.session().measuring(); };
     const auto finish = [&]() -> Result<void> {
-        while (state.busy() || viewer.session().measuring()) {
-            if (!viewer.session().measuring()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            PELLUCID_CHECK(go_on());
-        }
+        do {
+            while (busy()) {
+                if (!viewer.session().measuring()) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+                PELLUCID_CHECK(go_on());
+            }
+            PELLUCID_CHECK(go_on());  // with everything that is known by now; it may begin something else
+        } while (busy());
         return {};
     };
     for (std::uint32_t i = 1; i < options.frames; ++i) PELLUCID_CHECK(go_on());
-    PELLUCID_CHECK(finish());
+    if (options.frames > 1 || busy()) PELLUCID_CHECK(finish());
     if (options.measure) {
         state.requests.measure = state.requests.measure_all = true;
         PELLUCID_CHECK(go_on());
         PELLUCID_CHECK(finish());
     }
-    if (options.frames > 1 || options.measure) PELLUCID_CHECK(go_on());  // with everything that is known by now
     if (options.screenshot.empty()) return {};
     return write_screenshot(viewer.session(), options.screenshot);
 }

@@ -40,8 +40,10 @@ Result<bool> Session<B>::frame(const Input& input, Extent2D size) {
     if (input.toggle_ui) state_.choices.hide_ui = !state_.choices.hide_ui;
     if (input.screenshot) state_.requests.screenshot_png = true;
     layout_ = layout_of(size, state_.choices.hide_ui);
-    state_.rig.move(input, state_.choices.motion, layout_.picture_size(),
-                    layout_.over_picture(input.x, input.y) && (layout_.panel == 0 || !state_.ui.wants_pointer()));
+    const bool over_picture =
+        layout_.over_picture(input.x, input.y) && (layout_.panel == 0 || !state_.ui.wants_pointer());
+    const bool splits = state_.split_drag.move(input, layout_, over_picture, state_.choices);
+    state_.rig.move(input, state_.choices.motion, layout_.picture_size(), over_picture && !splits);
     state_.poll(layout_.picture_size());
     if (layout_.picture.width == 0 || layout_.picture.height == 0) return false;
     PELLUCID_CHECK(canvas_->resize(size));
@@ -64,11 +66,8 @@ Result<void> Session<B>::draw_pictures() {
     PELLUCID_TRY(const bool drawn, left_.draw(*device_, state_.loaded.scene, settings, state_.camera));
     Facts& facts = state_.facts;
     facts.left.problem = left_.problem();
-    if (!left_.renderer()) return Error{Errc::invalid_argument, left_.problem()};
-    if (left_.rebuilt()) {
-        facts.history.clear();
-        facts.quality_is_old = true;
-    }
+    if (!left_.renderer()) return left_.error();
+    if (left_.rebuilt()) facts.history.clear();
     if (drawn) {  // before anything else is drawn with it: a count of layers is a frame too
         const auto spans = left_.renderer()->gpu_times();
         if (!spans) return said(spans);

@@ -8,6 +8,7 @@
 #include "side.hpp"
 #include "state.hpp"
 #include "support/imgui_pass.hpp"
+#include <array>
 #include <deque>
 
 namespace pellucid::samples::viewer {
@@ -36,6 +37,8 @@ public:
     [[nodiscard]] Renderer<B>* right() const noexcept { return right_.renderer(); }
     /// Methods wait to be measured, one a frame.
     [[nodiscard]] bool measuring() const noexcept { return !queue_.empty(); }
+    /// Why the pictures are not what was asked for, left and right; without a message where they are.
+    [[nodiscard]] std::array<Error, 2> problems() const { return {left_.error(), right_.error()}; }
     /// [ms] that building the left renderer took, the last time.
     [[nodiscard]] double build_ms() const noexcept { return left_.build_ms(); }
 
@@ -97,6 +100,7 @@ private:
     Source left_source_, right_source_;
     ImageF truth_;          ///< of an exact method
     std::string truth_of_;  ///< what it is of
+    std::string measured_;  ///< what the quality is of
     std::deque<Transparency> queue_;
     std::size_t queued_ = 0;
 };

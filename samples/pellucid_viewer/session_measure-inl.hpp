@@ -34,7 +34,7 @@ Result<typename Session<B>::Truth> Session<B>::truth(const RenderSettings& setti
     const std::string key = state_.occasion(of) + exact->name;
     if (key != truth_of_) {
         PELLUCID_TRY(const bool drawn, exact_.draw(*device_, state_.loaded.scene, of, state_.camera));
-        if (!drawn) return Error{Errc::out_of_memory, exact_.problem()};
+        if (!drawn) return exact_.error();
         PELLUCID_TRY(const ImageF radiance, exact_.renderer()->read_hdr());
         truth_ = rgb(radiance);
         truth_of_ = key;
@@ -149,10 +149,13 @@ Result<void> Session<B>::answer_measurements() {
             if (check_device(t.method, device_->info())) queue_.push_back(t.method);
         queued_ = queue_.size();
     }
+    const RenderSettings truth_settings = state_.reference_settings(settings);
+    const std::string now = state_.occasion(truth_settings) + facts.left.label + " against " + facts.right.label;
+    facts.quality_is_old = now != measured_;
     // By itself: once for each combination, and only against a picture that is there anyway.
     const bool right_is_there = state_.choices.against != Against::nothing && facts.right.drawn;
     const bool by_itself = state_.choices.measure_at_rest && right_is_there && state_.rig.rest() > 0.5 &&
-                           !state_.judging.running() && (!facts.quality || facts.quality_is_old);
+                           !state_.judging.running() && facts.quality_is_old;
     const bool asked = std::exchange(r.measure, false) || by_itself;
     facts.measuring.reset();
     if (!asked && queue_.empty()) return {};
@@ -165,7 +168,7 @@ Result<void> Session<B>::answer_measurements() {
     }
     RenderSettings at = settings;
     at.size = {against->picture->width, against->picture->height};
-    facts.points.begin(state_.occasion(state_.reference_settings(settings)) + against->name,
+    facts.points.begin(state_.occasion(truth_settings) + against->name,
                        facts.scene + ", " + std::to_string(at.size.width) + "x" + std::to_string(at.size.height) +
                            " pixels, against " + against->name);
     if (!queue_.empty()) {
@@ -176,6 +179,7 @@ Result<void> Session<B>::answer_measurements() {
         PELLUCID_CHECK(said(add_point(with_method(at, method), *against)));
     }
     if (!asked) return {};
+    measured_ = now;
     facts.quality_is_old = false;
     at = left_.renderer()->settings();
     at.size = {against->picture->width, against->picture->height};

@@ -30,9 +30,9 @@ public:
             if (renderer_ && (other_scene || !(renderer_->settings().size == wanted.size))) {
                 RenderSettings last = renderer_->settings();
                 last.size = wanted.size;
-                const std::string why = problem_;
+                const Error why = error_;
                 PELLUCID_TRY(const bool kept, build(device, last, camera));
-                problem_ = why;
+                error_ = why;
                 if (kept) return true;
             }
         }
@@ -44,8 +44,9 @@ public:
 
     [[nodiscard]] Renderer<B>* renderer() const noexcept { return renderer_.get(); }
     /// One sentence: why the picture is not what was asked for; empty where it is.
-    [[nodiscard]] const std::string& problem() const noexcept { return problem_; }
-    [[nodiscard]] bool rebuilt() const noexcept { return rebuilt_; }  ///< by the last draw
+    [[nodiscard]] const std::string& problem() const noexcept { return error_.message; }
+    [[nodiscard]] const Error& error() const noexcept { return error_; }  ///< the same, where there is one
+    [[nodiscard]] bool rebuilt() const noexcept { return rebuilt_; }      ///< by the last draw
     [[nodiscard]] double build_ms() const noexcept { return build_ms_; }
 
 private:
@@ -58,24 +59,24 @@ private:
         if (!drawn) return refuse(drawn.error());
         renderer_ = std::move(*made);
         rebuilt_ = true;
-        problem_.clear();
+        error_ = {};
         return true;
     }
     [[nodiscard]] Result<bool> accept(const Result<rhi::Ticket>& drawn, bool settled) {
         if (!drawn) return refuse(drawn.error());
-        if (settled) problem_.clear();
+        if (settled) error_ = {};
         return true;
     }
     [[nodiscard]] Result<bool> refuse(const Error& error) {
         if (error.code == Errc::device_lost) return error;
-        problem_ = error.message;
+        error_ = error;
         return false;
     }
 
     std::unique_ptr<Renderer<B>> renderer_;
     std::shared_ptr<const Scene> scene_;  ///< the last that was asked for
     RenderSettings wanted_;               ///< likewise
-    std::string problem_;
+    Error error_;                         ///< without a message: none
     bool rebuilt_ = false;
     double build_ms_ = 0;
 };

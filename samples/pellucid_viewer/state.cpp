@@ -74,10 +74,7 @@ void State::poll(Extent2D picture) {
     } else if (was_drawing && !drawing.running()) {
         declined_ = true;
     }
-    if (auto judged = take(judging, *this)) {
-        facts.quality = std::move(*judged);
-        facts.quality_is_old = false;
-    }
+    if (auto judged = take(judging, *this)) facts.quality = std::move(*judged);
     if (requests.cancel_reference && drawing.running()) {
         drawing.cancel();
         declined_ = true;
@@ -88,7 +85,6 @@ void State::poll(Extent2D picture) {
     if (!same(camera, rig.camera())) {
         camera = rig.camera();
         ++camera_number;
-        facts.quality_is_old = true;
     }
     facts.loading = loading.running() ? progress(loading) : progress(environment);
     facts.reference = progress(drawing);

@@ -4,6 +4,7 @@
 /// All of the viewer that no device holds: it goes on when a device is lost or another backend is chosen.
 #include "facts.hpp"
 #include "rig.hpp"
+#include "split_drag.hpp"
 #include "ui.hpp"
 #include <string>
 
@@ -14,6 +15,7 @@ struct State {
     Requests requests;
     Facts facts;
     Rig rig;
+    SplitDrag split_drag;
     Ui ui;
 
     Loaded loaded;

@@ -70,6 +70,30 @@ TEMPLATE_LIST_TEST_CASE("the pointer turns the camera over the picture and press
     CHECK(equal(columns(v.canvas(), v.layout().panel, 500), v.expected(v.state.choices.render)));
 }
 
+TEST_CASE("the split is taken where it is, and let go with the button", "[cpu]") {
+    viewer::SplitDrag drag;
+    viewer::Choices choices{.against = viewer::Against::method, .split = 0.5f};
+    const viewer::Layout layout = viewer::layout_of({200, 100}, true);
+    const auto move = [&](float x, bool held) {
+        return drag.move({.x = x, .y = 50, .left = held}, layout, layout.over_picture(x, 50), choices);
+    };
+    CHECK(!move(100, false));
+    CHECK(move(102, true));
+    CHECK(move(150, true));
+    CHECK(choices.split == 0.75f);
+    CHECK(move(1000, true));
+    CHECK(choices.split == 1.0f);
+    CHECK(move(50, true));
+    CHECK(!move(60, false));
+    CHECK(choices.split == 0.25f);
+    CHECK(!move(80, true));  // beside it
+    CHECK(!move(50, true));  // the button went down elsewhere
+    CHECK(choices.split == 0.25f);
+    choices.against = viewer::Against::nothing;
+    CHECK(!move(50, false));
+    CHECK(!move(50, true));
+}
+
 TEMPLATE_LIST_TEST_CASE("a key hides the panel and shows it again", "[gpu]", Backends) {
     TestViewer<TestType> v(make_cyclic_triangles(), with_panel<TestType>());
     if (!v) return;

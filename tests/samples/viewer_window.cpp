@@ -1,118 +1,64 @@
 // SPDX-License-Identifier: MIT
-// The viewer in a real window: what the X server shows is the canvas, whatever is chosen and however large the window
-// is, and the canvas is the one that is drawn without a window.
+// The viewer in a real window: what the X server shows is the canvas; backends change and the window stays.
 #include "pellucid_viewer/window_loop.hpp"
+#include "support/catch.hpp"
 #include "support/viewer.hpp"
 #include "support/windows.hpp"
 
 namespace pellucid::test {
 namespace {
 
-/// A session whose canvas is presented by hand, frame by frame.
-template <class B>
-struct ViewerInWindow {
+struct Looked {
+    std::unique_ptr<samples::Window> window;
     viewer::State state;
+    viewer::Options options;
     Log log;
-    std::unique_ptr<Window> window;
-    std::unique_ptr<viewer::Session<B>> session;
-    std::unique_ptr<typename B::Surface> surface;
+    viewer::StartTimes times;
 
-    ViewerInWindow(Scene scene, Extent2D size, viewer::Choices choices) {
-        window = open_window(size);
-        if (!window) return;
-        state.choices = std::move(choices);
-        state.show(loaded(std::move(scene)), viewer::layout_of(size, state.choices.hide_ui).picture_size());
+    Looked() : window(open_window({300, 200})) {
+        options.frames = 3;
+        options.vsync = false;
+        state.choices.render.transparency = Transparency::sorted;
+        state.show(loaded(make_cyclic_triangles()), {300, 200});
+    }
+    /// Runs on this backend and looks at the window before it is left.
+    template <rhi::Backend B>
+    std::optional<std::string> run() {
         rhi::DeviceDesc desc = log.desc();
         desc.display = window->display();
-        session = must(viewer::Session<B>::create(desc, state));
-        surface = must(B::Surface::create(session->device(), {.window = window->native()}));
+        viewer::WindowLoop<B> loop(options, state, *window, desc);
+        const std::optional<std::string> next = must(loop.run(times));
+        CHECK(shows(*window, without_alpha(must(loop.session().read_canvas()))));
+        return next;
     }
-    explicit operator bool() const { return surface != nullptr; }
-
-    /// One frame of the window's size as it is.  Gives whether anything was drawn and shown.
-    bool frame() { return frame(window->framebuffer()); }
-    bool frame(Extent2D size) {
-        window->poll();
-        if (!must(session->frame({.seconds = 1}, size))) return false;
-        return must(surface->present(session->canvas(), size));
-    }
-    bool shows_canvas() { return shows(*window, without_alpha(must(session->read_canvas()))); }
 };
 
-viewer::Choices with_panel() {
-    viewer::Choices out;
-    out.render.transparency = Transparency::sorted;
-    return out;
+TEMPLATE_LIST_TEST_CASE("the window shows the canvas, panel and all, and follows its size", "[gpu][window]", Backends) {
+    Looked l;
+    if (!l.window) return;
+    CHECK(!l.run<TestType>());
+    resize(*l.window, {240, 260});
+    CHECK(!l.run<TestType>());
+    l.window->close();
+    l.options.frames = 0;
+    CHECK(!l.run<TestType>());
 }
 
-TEMPLATE_LIST_TEST_CASE("the viewer's window shows its canvas, over thirty frames and twenty sizes", "[gpu][window]",
-                        Backends) {
-    ViewerInWindow<TestType> v(make_cyclic_triangles(), {400, 240}, with_panel());
-    if (!v) return;
-    for (int i = 0; i < 30; ++i) CHECK(v.frame());
-    CHECK(v.shows_canvas());
-    constexpr Extent2D sizes[] = {{500, 300}, {0, 0},  {320, 200}, {1, 1},     {640, 120},
-                                  {300, 400}, {0, 80}, {400, 240}, {401, 241}, {90, 300}};
-    for (std::uint32_t step = 0; step < 20; ++step) {
-        const Extent2D size = sizes[step % std::size(sizes)];
-        CAPTURE(step, size.width, size.height);
-        if (size.width == 0 || size.height == 0) {  // minimised
-            CHECK_FALSE(v.frame(size));
-            continue;
-        }
-        resize(*v.window, size);
-        if (v.frame()) CHECK(v.shows_canvas());
-        CHECK(v.state.facts.left.problem.empty());
-    }
-}
-
-TEMPLATE_LIST_TEST_CASE("every method in the window is the one without a window", "[gpu][window]", Backends) {
-    constexpr Extent2D size{160, 120};
-    ViewerInWindow<TestType> v(make_cyclic_triangles(), size, TestViewer<TestType>::quick());
-    if (!v) return;
-    TestViewer<TestType> headless(make_cyclic_triangles());
-    for (const TransparencyTraits& t : all_transparencies) {
-        CAPTURE(t.name);
-        v.state.choices.render.transparency = t.method;
-        REQUIRE(v.frame());
-        CHECK(v.state.facts.left.problem.empty());
-        CHECK(v.shows_canvas());
-        headless.state.choices.render.transparency = t.method;
-        REQUIRE(headless.frame());
-        CHECK(equal(must(v.session->read_canvas()), headless.canvas()));
-    }
-}
-
-TEMPLATE_LIST_TEST_CASE("the loop ends where it is told to, and says which backend was chosen", "[gpu][window]",
-                        Backends) {
-    using B = TestType;
-    const auto window = open_window({320, 200});
-    if (!window) return;
-    Log log;
-    rhi::DeviceDesc desc = log.desc();
-    desc.display = window->display();
-    viewer::State state;
-    state.choices.render.transparency = Transparency::sorted;
-    state.show(loaded(make_cyclic_triangles()), {160, 120});
-    viewer::Options options{.size = {320, 200}, .frames = 5};
-    viewer::StartTimes times;
-    {
-        viewer::WindowLoop<B> loop(options, state, *window, desc);
-        CHECK(!must(loop.run(times)));
-        CHECK(shows(*window, without_alpha(must(loop.session().read_canvas()))));
-    }
-    CHECK(times.device > 0);
-    CHECK(times.renderer > 0);
-
-    options.frames = 0;
-    state.requests.backend = "another";
-    const auto chosen = must(viewer::WindowLoop<B>(options, state, *window, desc).run(times));
-    REQUIRE(chosen);
-    CHECK(*chosen == "another");
-    CHECK(!state.requests.backend);
-
-    window->close();
-    CHECK(!must(viewer::WindowLoop<B>(options, state, *window, desc).run(times)));
+TEST_CASE("another backend is chosen in the panel and goes on with the same view", "[gpu][window]") {
+    using First = std::tuple_element_t<0, Backends>;
+    using Last = std::tuple_element_t<std::tuple_size_v<Backends> - 1, Backends>;
+    Looked l;
+    if (!l.window) return;
+    l.state.choices.render.transparency = Transparency::peel;
+    l.state.requests.backend = Last::name;
+    CHECK(l.run<First>() == Last::name);
+    CHECK(l.state.facts.device.backend == First::name);
+    CHECK(!l.run<Last>());
+    CHECK(l.state.facts.device.backend == Last::name);
+    CHECK(l.state.facts.left.label == "peel");
+    l.state.requests.backend = First::name;
+    CHECK(l.run<Last>() == First::name);
+    CHECK(!l.run<First>());
 }
 
 }  // namespace
