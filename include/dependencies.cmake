@@ -15,6 +15,8 @@ function(pellucid_find name missing)
     "Vulkan        | Vulkan 1.3/VulkanHeaders 1.3 CONFIG | Vulkan::Headers                               | libvulkan-dev"
     "libepoxy      | PkgConfig                           | PkgConfig::epoxy                              | libepoxy-dev, pkg-config"
     "CLI11         | CLI11 CONFIG                        | CLI11::CLI11                                  | libcli11-dev"
+    "GLFW          | glfw3 3.3 CONFIG                    | glfw                                          | libglfw3-dev"
+    "X11           | X11                                 | X11::X11                                      | libx11-dev"
     "Catch2        | Catch2 CONFIG                       | Catch2::Catch2WithMain                        | catch2")
   list(FILTER rows INCLUDE REGEX "^${name} ")
   string(REGEX REPLACE " *\\| *" ";" row "${rows}")

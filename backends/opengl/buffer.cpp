@@ -89,4 +89,4 @@ void Device::destroy(rhi::Buffer buffer) {
     glDeleteBuffers(1, &object.name);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -54,4 +54,4 @@ void remove_call_counting() {
 #undef PELLUCID_REMOVE
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -307,4 +307,4 @@ void Commands::forget(rhi::Buffer buffer) {
     forget_groups();
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

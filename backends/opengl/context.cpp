@@ -5,6 +5,8 @@
 #include <epoxy/egl.h>
 
 #include <atomic>
+#include <map>
+#include <mutex>
 #include <string_view>
 
 #include "text.hpp"
@@ -30,15 +32,36 @@ bool egl_exists() {
     return exists;
 }
 
+/// How many contexts there are on each borrowed EGLDisplay.
+std::mutex borrowed_mutex;
+std::map<void*, int> borrowed_contexts;
+
+void borrow(void* display) {
+    const std::scoped_lock lock(borrowed_mutex);
+    ++borrowed_contexts[display];
+}
+void give_back(void* display) {
+    const std::scoped_lock lock(borrowed_mutex);
+    if (--borrowed_contexts[display] != 0) return;
+    borrowed_contexts.erase(display);
+    eglTerminate(display);
+}
+
 }  // namespace
 
-std::vector<Adapter> find_adapters() {
+std::vector<Adapter> find_adapters(const rhi::NativeDisplay& wanted) {
     std::vector<Adapter> found;
     if (!egl_exists()) return found;
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     const auto get_display =
         reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(eglGetProcAddress("eglGetPlatformDisplayEXT"));
     if (!get_display) return found;
+    if (wanted.system == rhi::WindowSystem::x11) {
+        if (has_word(client, "EGL_EXT_platform_x11") || has_word(client, "EGL_KHR_platform_x11"))
+            if (void* display = get_display(EGL_PLATFORM_X11_EXT, wanted.connection, nullptr))
+                found.push_back({display, "EGL device of the X11 display", true, true});
+        return found;
+    }
     const auto query_devices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
     const auto device_string =
         reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(eglGetProcAddress("eglQueryDeviceStringEXT"));
@@ -94,6 +117,8 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
         return Error{Errc::unsupported, text("OpenGL 4.5 core: eglCreateContext failed on the %s with error 0x%x",
                                              adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
     static std::atomic<std::uint64_t> serials = 0;
+    made->borrowed_ = adapter.borrowed;
+    if (adapter.borrowed) borrow(adapter.display);
     made->display_ = adapter.display;
     made->serial_ = ++serials;
     if (!made->make_current())
@@ -111,11 +136,12 @@ Context::~Context() {
         call_counter = nullptr;
     }
     eglDestroyContext(display_, context_);
+    if (borrowed_) give_back(display_);
 }
 
 bool Context::make_current() noexcept {
     eglBindAPI(EGL_OPENGL_API);
-    if (!eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_)) return false;
+    if (!eglMakeCurrent(display_, surface_, surface_, context_)) return false;
     current_context = serial_;
     call_counter = &calls;
     return true;
@@ -137,4 +163,4 @@ CurrentGuard::~CurrentGuard() {
     }
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

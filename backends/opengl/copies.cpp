@@ -104,4 +104,4 @@ Result<rhi::RecordSlice> Commands::upload_records(std::uint32_t count, std::uint
         .block = slice.block, .first = slice.offset / stride, .bytes = {slice.bytes, static_cast<std::size_t>(bytes)}};
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -162,7 +162,7 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
         return Error{Errc::invalid_argument, text("frames_in_flight is %u; it must be 1 to 4", desc.frames_in_flight)};
     // The same order as list(): hardware, then software.
     std::vector<Found> known;
-    for (const Adapter& adapter : find_adapters()) {
+    for (const Adapter& adapter : find_adapters(desc.display)) {
         Found found = probe(adapter, desc.validation);
         const bool best = !found.info.software && found.info.missing.empty();
         const auto place =
@@ -195,6 +195,7 @@ Result<std::unique_ptr<Device>> Device::create(const rhi::DeviceDesc& desc) {
 
 Result<void> Device::start(const rhi::DeviceDesc& desc) {
     log_ = desc.log;
+    display_ = desc.display;
     validation_ = desc.validation;
     frames_in_flight_ = desc.frames_in_flight;
     gl_spirv_ = desc.gl_spirv;
@@ -263,4 +264,4 @@ Result<void> Device::enter() {
                       info_.name.c_str())};
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -35,4 +35,4 @@ struct GlFormat {
     return table[static_cast<std::size_t>(format)];
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

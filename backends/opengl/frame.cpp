@@ -83,4 +83,4 @@ bool Device::done(rhi::Ticket ticket) {
     return number <= completed_;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

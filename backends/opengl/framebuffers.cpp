@@ -93,4 +93,4 @@ void Framebuffers::clear() {
     last_ = 0;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -17,6 +17,7 @@
     X(BindVertexArray)                             \
     X(BlendEquationSeparatei)                      \
     X(BlendFuncSeparatei)                          \
+    X(BlitNamedFramebuffer)                        \
     X(CheckNamedFramebufferStatus)                 \
     X(ClearNamedBufferSubData)                     \
     X(ClearNamedFramebufferfi)                     \
@@ -84,6 +85,7 @@
     X(MemoryBarrier)                               \
     X(MultiDrawElementsIndirect)                   \
     X(NamedBufferStorage)                          \
+    X(NamedFramebufferDrawBuffer)                  \
     X(NamedFramebufferDrawBuffers)                 \
     X(NamedFramebufferParameteri)                  \
     X(NamedFramebufferTexture)                     \

@@ -3,4 +3,4 @@
 
 namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(, OpenGL)
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

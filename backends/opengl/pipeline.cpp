@@ -151,4 +151,4 @@ void Device::destroy(rhi::Group group) {
     objects_.groups.erase(group);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

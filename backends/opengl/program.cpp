@@ -143,4 +143,4 @@ Result<GLuint> Device::make_program(std::span<const rhi::Shader* const> shaders,
     return program;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

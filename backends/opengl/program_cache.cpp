@@ -145,4 +145,4 @@ void ProgramCache::save() {
          text("The pipeline cache '%s' could not be written: check the folder and its space", file_.c_str()).c_str());
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

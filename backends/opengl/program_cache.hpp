@@ -52,4 +52,4 @@ private:
     bool changed_ = false;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -53,4 +53,4 @@ void Commands::end_query(rhi::Queries, std::uint32_t) {
     glEndQuery(GL_SAMPLES_PASSED);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -122,4 +122,4 @@ void open_color_mask(RasterState& now, std::uint32_t i) {
     set_color_mask(now, i, 0xF);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -66,4 +66,4 @@ bool Ring::add_block(std::uint32_t size) {
     return true;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -33,4 +33,4 @@ std::vector<rhi::SpecConstant> merged_constants(std::vector<rhi::SpecConstant> d
     return declared;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

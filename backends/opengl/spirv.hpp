@@ -16,4 +16,4 @@ namespace pellucid::inline v0_1::opengl {
 [[nodiscard]] std::vector<rhi::SpecConstant> merged_constants(std::vector<rhi::SpecConstant> declared,
                                                               std::span<const rhi::SpecConstant> given);
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -19,4 +19,4 @@ std::string text(const char* format, ...) {
     return out;
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

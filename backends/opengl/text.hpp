@@ -10,4 +10,4 @@ namespace pellucid::inline v0_1::opengl {
 /// `printf` into a string.
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...);
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -153,4 +153,4 @@ void Device::destroy(rhi::Sampler sampler) {
     if (object.nearest_name != object.name) glDeleteSamplers(1, &object.nearest_name);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

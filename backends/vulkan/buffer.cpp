@@ -104,4 +104,4 @@ void Device::destroy(rhi::Buffer buffer) {
     context_.retire(VK_OBJECT_TYPE_BUFFER, object.handle, object.memory);
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -96,4 +96,4 @@ void Context::save_pipeline_cache() {
     log(Severity::warning, ("the pipeline cache '" + pipeline_cache_file + "' could not be written").c_str());
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -332,4 +332,4 @@ void Commands::keep(const Error& error) {
     failed_ = true;
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

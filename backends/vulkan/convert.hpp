@@ -72,4 +72,4 @@ namespace pellucid::inline v0_1::vulkan {
     return table[static_cast<std::size_t>(kind)];
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -33,13 +33,15 @@ Result<void> make_device(Context& context, const Candidate& candidate) {
     queue.queueFamilyIndex = candidate.family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    const char* interlock = VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME;
+    SmallVector<const char*, 2> extensions;
+    if (candidate.interlock) extensions.push_back(VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
+    if (context.instance->windows != rhi::WindowSystem::none) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
     info.pNext = &wanted.core;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
-    info.enabledExtensionCount = candidate.interlock ? 1 : 0;
-    info.ppEnabledExtensionNames = &interlock;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.begin();
     VkDevice device = VK_NULL_HANDLE;
     if (const VkResult r = vk.CreateDevice(candidate.handle, &info, nullptr, &device))
         return api_error(r, "vkCreateDevice", candidate.info.name.c_str());
@@ -81,7 +83,8 @@ Device::~Device() {
 Result<void> Device::init(const rhi::DeviceDesc& desc) {
     Context& c = context_;
     c.log = desc.log;
-    PELLUCID_TRY(c.instance, Instance::create(desc.validation, desc.log));
+    PELLUCID_TRY(c.instance, Instance::create(desc.validation, desc.log, desc.display.system));
+    c.display = desc.display;
     PELLUCID_TRY(const Candidate candidate, c.instance->choose(desc.device));
     c.device_info = candidate.info;
     c.physical = candidate.handle;
@@ -167,4 +170,4 @@ Context::~Context() {
     vk.DestroyDevice(device, nullptr);
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -186,4 +186,4 @@ Error api_error(VkResult result, const char* what, const char* name) {
     return {code, std::string(what) + " for '" + name + "' returned " + result_name(result)};
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -131,7 +131,7 @@ void Context::destroy_now(const Garbage& item) {
     memory.free(item.memory);
 }
 
-Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
+Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands, VkSemaphore before, VkSemaphore after) {
     // The tracked layouts and the upload's state are those after commands that would never run: once a step of this
     // fails, nothing of the device can be trusted.
     const auto broken = [this](VkResult result, const char* what) {
@@ -164,6 +164,17 @@ Result<std::uint64_t> Context::submit(VkCommandBuffer frame_commands) {
     VkSubmitInfo2 info = {VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
     info.commandBufferInfoCount = count;
     info.pCommandBufferInfos = batch;
+    VkSemaphoreSubmitInfo semaphores[2] = {};
+    const auto use = [&](VkSemaphoreSubmitInfo& out, VkSemaphore semaphore, VkPipelineStageFlags2 stages) {
+        out = {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO};
+        out.semaphore = semaphore;
+        out.stageMask = stages;
+        return semaphore ? 1u : 0u;
+    };
+    info.waitSemaphoreInfoCount = use(semaphores[0], before, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT);
+    info.pWaitSemaphoreInfos = &semaphores[0];
+    info.signalSemaphoreInfoCount = use(semaphores[1], after, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
+    info.pSignalSemaphoreInfos = &semaphores[1];
     if (const VkResult r = vk.QueueSubmit2(queue, 1, &info, fence)) return broken(r, "vkQueueSubmit2");
     ++submitted;
     if (upload.recording) {
@@ -232,4 +243,4 @@ bool Device::done(rhi::Ticket ticket) {
     return value <= context_.completed || context_.lost;
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

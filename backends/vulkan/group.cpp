@@ -172,4 +172,4 @@ void Device::destroy(rhi::Group group) {
     context_.retire(Garbage{0, VK_OBJECT_TYPE_DESCRIPTOR_SET, 0, {}, set});
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -165,6 +165,7 @@ Candidate describe(const InstanceTable& vk, VkPhysicalDevice physical) {
     std::vector<VkExtensionProperties> extensions(count);
     vk.EnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
     c.interlock = has_extension(extensions, VK_EXT_FRAGMENT_SHADER_INTERLOCK_EXTENSION_NAME);
+    c.swapchain = has_extension(extensions, VK_KHR_SWAPCHAIN_EXTENSION_NAME);
 
     Features had, wanted;
     had.chain(c.interlock);
@@ -227,7 +228,7 @@ std::string choose_features(const Features& had, Features& wanted) {
     return missing.empty() ? missing : "the features " + missing;
 }
 
-Result<std::unique_ptr<Instance>> Instance::create(bool validation, LogSink log) {
+Result<std::unique_ptr<Instance>> Instance::create(bool validation, LogSink log, rhi::WindowSystem windows) {
     PELLUCID_TRY(const GlobalTable global, load_global());
     std::uint32_t version = 0;
     global.EnumerateInstanceVersion(&version);
@@ -240,13 +241,24 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, LogSink log)
     std::unique_ptr<Instance> made(new Instance);
     made->global = global;
     made->log = log;
+    made->windows = windows;
 
     std::uint32_t count = 0;
     global.EnumerateInstanceExtensionProperties(nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     global.EnumerateInstanceExtensionProperties(nullptr, &count, extensions.data());
     made->debug_utils = validation || has_extension(extensions, VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
+    SmallVector<const char*, 3> wanted;
+    if (made->debug_utils) wanted.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+    if (windows == rhi::WindowSystem::x11) {
+        for (const char* name : {VK_KHR_SURFACE_EXTENSION_NAME, "VK_KHR_xlib_surface"}) {
+            if (!has_extension(extensions, name))
+                return Error{Errc::unsupported,
+                             std::string("windows of X11 were asked for, and the Vulkan loader has no ") + name +
+                                 ": install a driver with X11, e.g. mesa-vulkan-drivers"};
+            wanted.push_back(name);
+        }
+    }
 
     VkDebugUtilsMessengerCreateInfoEXT messenger = messenger_info(made->log);
     const VkValidationFeatureEnableEXT enable = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
@@ -259,8 +271,8 @@ Result<std::unique_ptr<Instance>> Instance::create(bool validation, LogSink log)
     application.apiVersion = VK_API_VERSION_1_3;
     VkInstanceCreateInfo info = {VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
     info.pApplicationInfo = &application;
-    info.enabledExtensionCount = made->debug_utils ? 1 : 0;
-    info.ppEnabledExtensionNames = &extension;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(wanted.size());
+    info.ppEnabledExtensionNames = wanted.begin();
     VkResult result = VK_SUCCESS;
     if (validation) {
         info.pNext = &features;
@@ -293,7 +305,12 @@ std::vector<Candidate> Instance::candidates() const {
     std::vector<VkPhysicalDevice> physical(count);
     vk.EnumeratePhysicalDevices(handle, &count, physical.data());
     std::vector<Candidate> found;
-    for (std::uint32_t i = 0; i < count; ++i) found.push_back(describe(vk, physical[i]));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        found.push_back(describe(vk, physical[i]));
+        std::string& missing = found.back().info.missing;
+        if (windows != rhi::WindowSystem::none && !found.back().swapchain)
+            missing += std::string(missing.empty() ? "" : ", ") + VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    }
     return found;
 }
 
@@ -317,7 +334,7 @@ Result<Candidate> Instance::choose(const std::string& which) const {
                  "no usable Vulkan device" + (which.empty() ? "" : " matches '" + which + "'") + "; found " + text};
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan
 
 namespace pellucid::inline v0_1 {
 
@@ -329,4 +346,4 @@ std::vector<rhi::DeviceInfo> Vulkan::list() {
     return infos;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -156,4 +156,4 @@ void SubAllocator::release_all() {
     used_bytes_ = 0;
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -3,4 +3,4 @@
 
 namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(, Vulkan)
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

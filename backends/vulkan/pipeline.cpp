@@ -198,4 +198,4 @@ void Device::destroy(rhi::Pipeline pipeline) {
     if (alive(pipeline)) context_.retire(VK_OBJECT_TYPE_PIPELINE, context_.pipelines.erase(pipeline).handle);
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

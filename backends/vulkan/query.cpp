@@ -66,4 +66,4 @@ void Commands::end_query(rhi::Queries queries, std::uint32_t index) {
     vk_.CmdEndQuery(commands_, context_.queries[queries].handle, index);
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

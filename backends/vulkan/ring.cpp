@@ -51,4 +51,4 @@ Result<Ring::Slice> Ring::grow(Context& context, std::uint64_t size) {
     return Slice{current_, 0, blocks_[current_].memory.mapped};
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

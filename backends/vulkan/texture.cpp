@@ -221,4 +221,4 @@ void Device::destroy(rhi::Sampler sampler) {
     context_.retire(VK_OBJECT_TYPE_SAMPLER, object.one_level);
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -120,4 +120,4 @@ void Context::destroy_upload() {
     }
 }
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

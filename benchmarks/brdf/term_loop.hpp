@@ -106,10 +106,9 @@ struct TermLoop {
         return out;
     }
     void record(rhi::CommandsFor<B>& cmd) const {
-        cmd.begin_compute(
-            {.uses = {rhi::use(parameters.get(), rhi::Access::uniform_read), rhi::use(table, rhi::Access::sampled),
-                      rhi::use(sums, rhi::Access::storage_write)},
-             .name = "terms"});
+        cmd.begin_compute({.uses = {rhi::use(parameters.get(), rhi::Access::uniform_read),
+                                    rhi::use(table, rhi::Access::sampled), rhi::use(sums, rhi::Access::storage_write)},
+                           .name = "terms"});
         cmd.bind_pipeline(pipeline);
         cmd.bind_group(group);
         cmd.dispatch((size.width + 7) / 8, (size.height + 7) / 8, 1);

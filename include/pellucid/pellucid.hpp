@@ -26,4 +26,4 @@ using Backends = rhi::BackendList<Vulkan>;
 using Backends = rhi::BackendList<OpenGL>;
 #endif
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // pellucid-render: the command-line tool.  DESIGN.md has its contract.
+#include "../support/environment_file.hpp"
 #include "options.hpp"
 #include "outputs.hpp"
 #include "reference.hpp"
@@ -31,11 +32,8 @@ void list_devices(rhi::BackendList<Bs...>) {
 /// Reads the picture of the environment that was asked for.
 Result<void> read_environment(Options& options) {
     if (options.environment.empty()) return {};
-    PELLUCID_TRY(ImageF picture, read_hdr(options.environment));
-    if (const Result<void> fit = check_environment(picture, options.environment); !fit)
-        return Error{Errc::parse, fit.error().message};
+    PELLUCID_TRY(options.settings.environment.picture, samples::read_environment(options.environment));
     options.settings.environment.kind = EnvironmentKind::picture;
-    options.settings.environment.picture = std::make_shared<const ImageF>(std::move(picture));
     return {};
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
+#include "../support/environment_file.hpp"
 #include "option_values.hpp"
 #include <pellucid/core/version.hpp>
 #include <CLI/CLI.hpp>
@@ -166,12 +167,8 @@ std::string read_texts(const CLI::App& app, const Texts& t, Options& o) {
     o.chose_transparency = t.transparency != "auto";
     for (const TransparencyTraits& m : all_transparencies)
         if (t.transparency == m.name) o.settings.transparency = m.method;
-    if (t.environment == "none") o.settings.default_light = false;
-    if (t.environment == "sky") o.settings.environment.kind = EnvironmentKind::sky;
-    if (t.environment.ends_with(".hdr"))
-        o.environment = t.environment;
-    else if (!t.environment.empty() && t.environment != "none" && t.environment != "sky")
-        return "--environment is none, sky or a FILE.hdr, not '" + t.environment + "'";
+    wrong = samples::parse_environment(t.environment, o.settings, o.environment);
+    if (!wrong.empty()) return wrong;
     o.settings.environment.backdrop = t.background.empty();
     if (app["--error-budget"]->count() > 0) o.error_budget = t.error_budget;
     for (const std::string& aov : t.aovs) {

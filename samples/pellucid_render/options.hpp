@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 #pragma once
-#include <pellucid/core/result.hpp>
+#include "../support/exit_status.hpp"
 #include <pellucid/renderer/settings.hpp>
 #include <cstdint>
 #include <optional>
@@ -34,27 +34,8 @@ struct Options {
     [[nodiscard]] bool against_reference() const { return compare == "reference"; }
 };
 
-/// Exit statuses of the command-line contract; `failed`: a driver, the validation layer or this program is at fault.
-enum class Exit : int { done = 0, failed = 1, usage = 2, input = 3, no_device = 4, device = 5, error_budget = 6 };
-
-/// The exit status of a run that ended with this error.
-[[nodiscard]] inline Exit exit_status(pellucid::Errc error) {
-    using pellucid::Errc;
-    switch (error) {
-        case Errc::invalid_argument:
-            return Exit::usage;
-        case Errc::no_device:
-        case Errc::unsupported:
-            return Exit::no_device;
-        case Errc::device_lost:
-        case Errc::out_of_memory:
-            return Exit::device;
-        case Errc::internal:
-            return Exit::failed;
-        default:
-            return Exit::input;
-    }
-}
+using pellucid::samples::Exit;
+using pellucid::samples::exit_status;
 
 /// Parses the command line.  Returns the exit status instead where the program is already done (--help, bad usage);
 /// what there is to say has been said.

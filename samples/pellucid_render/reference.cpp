@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference.hpp"
+#include "../support/reference_picture.hpp"
 #include "outputs.hpp"
 #include "progress.hpp"
-#include <pellucid/reference/srgb.hpp>
-#include <pellucid/reference/tonemap.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <chrono>
 #include <cstdio>
@@ -14,22 +13,11 @@ using namespace pellucid;
 
 Result<reference::Picture> draw_reference(const Options& options, const Scene& scene, const Camera& camera,
                                           bool stability) {
-    const RenderSettings& s = options.settings;
     ProgressBar bar("reference");
-    reference::RenderOptions how{.size = s.size,
-                                 .background = glm::dvec3(s.background),
-                                 .lights = scene.lights,
-                                 .brdf = static_cast<reference::BrdfModel>(s.brdf),  // the same names in one order
-                                 .environment = s.environment,
-                                 .shadows = s.shadows != Shadows::none,
-                                 .translucent = s.transparency != Transparency::none,
-                                 .stability = stability,
-                                 .progress = &ProgressBar::show,
-                                 .user = &bar};
-    if (gets_default_sun(scene, s)) {
-        how.lights.push_back(default_sun());
-        if (s.environment.kind == EnvironmentKind::none) how.ambient = glm::dvec3(static_cast<double>(default_ambient));
-    }
+    reference::RenderOptions how = samples::reference_options(scene, options.settings);
+    how.stability = stability;
+    how.progress = &ProgressBar::show;
+    how.user = &bar;
     return reference::render(scene, camera, how);
 }
 
@@ -42,22 +30,8 @@ Result<reference::Picture> draw_reference(const Options&, const Scene&, const Ca
 #endif
 
 Drawn shown(const Options& options, ImageF radiance) {
-    const RenderSettings& s = options.settings;
-    const auto curve = s.tonemap == ToneCurve::none       ? reference::ToneMap::none
-                       : s.tonemap == ToneCurve::reinhard ? reference::ToneMap::reinhard
-                       : s.tonemap == ToneCurve::neutral  ? reference::ToneMap::neutral
-                       : s.tonemap == ToneCurve::aces     ? reference::ToneMap::aces
-                                                          : reference::ToneMap::agx;
-    Drawn out{.linear = std::move(radiance), .display = Image8(s.size.width, s.size.height, 4)};
-    for (std::size_t i = 0; i < out.display.data.size() / 4; ++i) {
-        const float* const from = &out.linear.data[i * out.linear.channels];
-        const glm::dvec3 mapped =
-            reference::tone_map(curve, static_cast<double>(s.exposure_ev), glm::dvec3(from[0], from[1], from[2]));
-        for (int c = 0; c < 3; ++c)
-            out.display.data[4 * i + static_cast<std::size_t>(c)] = reference::srgb8_from_linear(mapped[c]);
-        out.display.data[4 * i + 3] = 255;
-    }
-    return out;
+    Image8 display = samples::display_picture(options.settings, radiance);
+    return {.linear = std::move(radiance), .display = std::move(display)};
 }
 
 Result<int> run_reference(const Options& options, const Scene& scene, const Camera& camera,

@@ -2,6 +2,7 @@
 #pragma once
 /// \file
 /// One run on one backend: render, read back, compare, write.
+#include "../support/messages.hpp"
 #include "aov.hpp"
 #include "compare.hpp"
 #include "options.hpp"
@@ -13,15 +14,6 @@
 #include <cstdio>
 #include <map>
 #include <utility>
-
-/// Counts driver and validation messages, and passes them on to stderr.
-struct MessageCount {
-    unsigned errors = 0;
-    static void write(void* user, pellucid::Severity severity, const char* text) {
-        if (severity != pellucid::Severity::info) ++static_cast<MessageCount*>(user)->errors;
-        std::fprintf(stderr, "pellucid-render: device: %s\n", text);
-    }
-};
 
 inline double milliseconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -104,7 +96,7 @@ template <pellucid::rhi::Backend B>
 pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, const pellucid::Camera& camera,
                           const std::optional<Target>& target) {
     using namespace pellucid;
-    MessageCount messages;
+    samples::Messages messages{.program = "pellucid-render"};
     Report report;
     int status = 0;
     {
@@ -114,7 +106,7 @@ pellucid::Result<int> run(const Options& options, const pellucid::Scene& scene, 
                                         .validation = options.validate,
                                         .gl_spirv = options.gl_spirv,
                                         .pipeline_cache = options.pipeline_cache,
-                                        .log = {&MessageCount::write, &messages}}));
+                                        .log = messages.sink()}));
         report.device = &device->info();
         std::unique_ptr<Renderer<B>> renderer;
         PELLUCID_TRY(renderer, Renderer<B>::create(*device, scene, options.settings));

@@ -15,7 +15,7 @@
 
 namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(, Null)
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 using namespace pellucid;
 

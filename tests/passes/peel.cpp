@@ -131,6 +131,45 @@ TEMPLATE_LIST_TEST_CASE("peeling stops at max_layers depths, and says so where t
     }
 }
 
+TEMPLATE_LIST_TEST_CASE("layers before the first one that is wanted are peeled and not composited", "[gpu]", Backends) {
+    const auto device = make_device<TestType>();
+    if (!device) return;
+    // Six depths, three sheets at the second and the fifth one; nothing gets through the first one.
+    std::vector<Sheet> all;
+    std::vector<std::vector<Layer>> depths;  // nearest first
+    for (std::uint32_t d = 0; d < 6; ++d) {
+        depths.emplace_back();
+        for (std::uint32_t i = 0; i < (d % 3 == 1 ? 3u : 1u); ++i) {
+            glm::vec4 color = sheet_kinds[(d + i) % 3];
+            if (d == 0) color.a = 1;
+            all.push_back({.slot = 100 - 10 * d, .color = color});
+            depths.back().insert(depths.back().begin(), straight(color));
+        }
+    }
+    const Scene scene = make_sheets(all);
+    const glm::dvec3 background{0.25, 0.5, 0.125};
+    Peeled<TestType> peeled(*device, scene, {.size = {16, 8}, .background = glm::vec3(background)});
+    const std::vector<rhi::Rect> areas(6, {.width = 16, .height = 8});  // each layer's
+    const auto check = [&](std::uint32_t first, std::uint32_t most) {
+        std::vector<Layer> layers;
+        for (std::uint32_t d = first; d < std::min(most, 6u); ++d)
+            layers.insert(layers.end(), depths[d].begin(), depths[d].end());
+        peeled.pass->set_layers(first, most);
+        for (const bool known : {false, true}) {
+            INFO("from " << first << " to " << most << (known ? ", areas known" : ""));
+            check_layers(peeled.draw(scene.cameras.front(), known ? areas : std::vector<rhi::Rect>{}), scene, layers,
+                         background, Transparency::peel, device->info().software);
+            double through = 1;
+            for (const Layer& l : layers) through *= 1 - l.alpha;
+            CHECK(peeled.sum().texel(5, 5)[3] == Approx(through).epsilon(1e-6).margin(1e-7));
+        }
+    };
+    for (std::uint32_t k = 0; k < 8; ++k) check(k, k + 1);  // alone; the last two are not there
+    check(1, 6);
+    check(2, 4);
+    check(0, 6);  // and all again
+}
+
 TEMPLATE_LIST_TEST_CASE("what is behind something opaque is no layer, and leaving it out truncates nothing", "[gpu]",
                         Backends) {
     const auto device = make_device<TestType>();

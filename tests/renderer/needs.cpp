@@ -89,10 +89,7 @@ TEST_CASE("each need is set by what needs it, and by nothing else", "[cpu]") {
          },
          PELLUCID_NEED_VERTEX_COLORS},
         {"point light", [](Scene& s) { s.lights.push_back({.kind = LightKind::point}); }, PELLUCID_NEED_POINTS},
-        {"point light with a range",
-         [](Scene& s) {
-             s.lights.push_back({.kind = LightKind::point, .range = 4});
-         },
+        {"point light with a range", [](Scene& s) { s.lights.push_back({.kind = LightKind::point, .range = 4}); },
          PELLUCID_NEED_POINTS | PELLUCID_NEED_LIGHT_RANGES},
         {"spot light", [](Scene& s) { s.lights.push_back({.kind = LightKind::spot}); }, PELLUCID_NEED_SPOTS}};
     for (const Case& c : cases) {

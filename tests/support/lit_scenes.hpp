@@ -18,13 +18,12 @@ struct Lit {
 /// Scaled RMSE and largest error in the pixels that no small move of the sample changes.
 template <rhi::Backend B>
 [[nodiscard]] measure::ImageError error_of(typename B::Device& device, const Lit& lit, const RenderSettings& settings,
-                             const reference::Picture& wanted) {
+                                           const reference::Picture& wanted) {
     const ImageF hdr = shoot<B>(device, lit.scene, lit.scene.cameras.front(), settings).hdr;
     ImageF rgb(hdr.width, hdr.height, 3);
     for (std::size_t i = 0; i < rgb.data.size() / 3; ++i)
         std::copy_n(hdr.data.data() + 4 * i, 3, rgb.data.data() + 3 * i);
-    const auto error =
-        must(measure::coverage_error(rgb, wanted.radiance, wanted.stable, measure::ErrorScale::scaled));
+    const auto error = must(measure::coverage_error(rgb, wanted.radiance, wanted.stable, measure::ErrorScale::scaled));
     CHECK(error.stable_pixels > settings.size.width * settings.size.height / 2);
     CHECK(error.stable.nonfinite + error.unstable.nonfinite == 0);
     return error.stable;

@@ -12,16 +12,19 @@ inline constexpr bool enable_flags = false;
 template <class E>
 concept FlagEnum = std::is_enum_v<E> && enable_flags<E>;
 
+/// The flags of either.
 template <FlagEnum E>
 [[nodiscard]] constexpr E operator|(E a, E b) noexcept {
     using U = std::underlying_type_t<E>;
     return static_cast<E>(static_cast<U>(a) | static_cast<U>(b));
 }
+/// The flags of both.
 template <FlagEnum E>
 [[nodiscard]] constexpr E operator&(E a, E b) noexcept {
     using U = std::underlying_type_t<E>;
     return static_cast<E>(static_cast<U>(a) & static_cast<U>(b));
 }
+/// Adds flags.
 template <FlagEnum E>
 constexpr E& operator|=(E& a, E b) noexcept {
     return a = a | b;
@@ -37,4 +40,4 @@ template <FlagEnum E>
     return (set & bits) != E{};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

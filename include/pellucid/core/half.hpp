@@ -32,4 +32,4 @@ namespace pellucid::inline v0_1 {
     return static_cast<std::uint16_t>(sign | tiny);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -83,4 +83,4 @@ private:
     std::uint32_t live_ = 0;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The size of a picture [texel].
 struct Extent2D {
     std::uint32_t width = 0;   ///< [texel]
     std::uint32_t height = 0;  ///< [texel]
@@ -36,7 +37,9 @@ struct Image {
     [[nodiscard]] bool empty() const noexcept { return data.empty(); }
 };
 
+/// 8 bits a channel.
 using Image8 = Image<std::uint8_t>;
+/// Single precision.
 using ImageF = Image<float>;
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

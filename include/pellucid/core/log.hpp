@@ -7,6 +7,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How much a message matters; an error is one after which results are not to be trusted.
 enum class Severity : std::uint8_t { info, warning, error };
 
 /// Receives messages of a device: driver and validation messages, fall-backs, cache misses.
@@ -22,4 +23,4 @@ struct LogSink {
     }
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -70,7 +70,7 @@ private:
     bool ok_ = true;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #define PELLUCID_CONCAT_INNER(a, b) a##b
 #define PELLUCID_CONCAT(a, b) PELLUCID_CONCAT_INNER(a, b)

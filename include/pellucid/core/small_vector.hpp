@@ -42,4 +42,4 @@ private:
     std::size_t size_ = 0;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

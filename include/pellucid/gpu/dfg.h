@@ -5,7 +5,7 @@
 #define PELLUCID_GPU_DFG_H
 #include "pellucid/gpu/types.h"
 
-#define PELLUCID_DFG_TABLE 0  // storage image, rgba16f
-#define PELLUCID_DFG_SIZE 128 // texels a side, threads that share a row
+#define PELLUCID_DFG_TABLE 0              // storage image, rgba16f
+#define PELLUCID_DFG_SIZE 128             // texels a side, threads that share a row
 #define PELLUCID_DFG_MIN_ROUGHNESS 0.001  // stands for 0 in the first row
 #endif

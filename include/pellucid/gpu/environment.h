@@ -5,10 +5,10 @@
 #define PELLUCID_GPU_ENVIRONMENT_H
 #include "pellucid/gpu/types.h"
 
-#define PELLUCID_ENVIRONMENT_TARGET 0   // storage image: a level of a cube
-#define PELLUCID_ENVIRONMENT_ABOVE 1    // storage image: the level of the source that is halved
-#define PELLUCID_ENVIRONMENT_PICTURE 12 // sampled: equirectangular, rgba32f
-#define PELLUCID_ENVIRONMENT_SOURCE 13  // sampled cube: rgba32f with levels
+#define PELLUCID_ENVIRONMENT_TARGET 0    // storage image: a level of a cube
+#define PELLUCID_ENVIRONMENT_ABOVE 1     // storage image: the level of the source that is halved
+#define PELLUCID_ENVIRONMENT_PICTURE 12  // sampled: equirectangular, rgba32f
+#define PELLUCID_ENVIRONMENT_SOURCE 13   // sampled cube: rgba32f with levels
 
 #define PELLUCID_ENVIRONMENT_LEAST 8      // side of the last level [texel]
 #define PELLUCID_ENVIRONMENT_SAMPLES 512  // of narrow lobes
@@ -16,6 +16,7 @@
 #define PELLUCID_ENVIRONMENT_THREADS 8    // workgroup edge
 
 PELLUCID_GPU_BEGIN
+/// Push data of what makes one level of a cube map.
 struct EnvironmentPush {
     uint size;    // side of the level that is written [texel]
     float alpha;  // of the lobe

@@ -22,6 +22,7 @@
 #define PELLUCID_LISTS_COLUMNS 256u  // workgroups of a class lie in rows of so many: no dimension is too large
 
 PELLUCID_GPU_BEGIN
+/// The tiles of one class of depth, as the arguments of an indirect dispatch.
 struct ListClass {
     uint columns;  // the arguments of its dispatch
     uint rows;
@@ -30,7 +31,7 @@ struct ListClass {
 };
 PELLUCID_GPU_SIZE(ListClass, 16)
 
-// Push data of whoever makes or walks the lists.
+/// Push data of whoever makes or walks the lists.
 struct ListBand {
     uint first_strip;
     uint tile_stride;         // places in a class's list

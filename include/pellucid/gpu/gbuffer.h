@@ -22,7 +22,7 @@
 #define PELLUCID_GBUFFER_DEPTH 17
 
 PELLUCID_GPU_BEGIN
-// One pixel of the compact layout as a compute pass writes it to a buffer (tests, measurement).
+/// One pixel of the compact layout as a compute pass writes it to a buffer (tests, measurement).
 struct GBufferTexel {
     uint normal;
     uint material;

@@ -15,7 +15,7 @@
 #define PELLUCID_SKYX_LEAST_ALPHA 8  // [1/255] less is not drawn
 
 PELLUCID_GPU_BEGIN
-// Push data of the marks.
+/// Push data of the marks.
 struct SkyxMark {
     uvec4 parity;  // column and row of the pixels that are marked, 0 or 1
 };

@@ -15,7 +15,7 @@
 #define PELLUCID_LAYERS_THREADS 64  // threads that share a strip; each takes whole tiles
 
 PELLUCID_GPU_BEGIN
-// PELLUCID_LAYERS_TILE rows of pixels.
+/// PELLUCID_LAYERS_TILE rows of pixels.
 struct LayerStrip {
     uint fragments;  // of all its pixels
     uint deepest;    // of one pixel

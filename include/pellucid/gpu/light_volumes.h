@@ -9,6 +9,7 @@
 #define PELLUCID_VOLUMES_MESH 18   // storage block: vec4 a corner: triangles of a unit sphere, then of a unit cone
 
 PELLUCID_GPU_BEGIN
+/// Push data of one light's volume.
 struct LightVolumePush {
     uint light;         // index of the light
     uint first_corner;  // of its mesh

@@ -9,7 +9,7 @@
 #define PELLUCID_PEEL_SUM 14     // sampled, rgba32_float: what is composited; alpha: the share that gets through
 
 PELLUCID_GPU_BEGIN
-// Push data of the advance.
+/// Push data of the advance.
 struct PeelAdvance {
     float min_transmittance;  // a pixel is done where no more gets through; below 0: never
     uint reserved0;

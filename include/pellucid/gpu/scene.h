@@ -28,13 +28,14 @@
 #define PELLUCID_NEED_UNLIT 512u
 #define PELLUCID_NEED_AMBIENT 1024u
 #define PELLUCID_NEED_OCCLUSION 2048u
-#define PELLUCID_NEED_NORMALS 4096u  // a light falls on a lit surface, or the G-buffer is kept to be read
+#define PELLUCID_NEED_NORMALS 4096u          // a light falls on a lit surface, or the G-buffer is kept to be read
 #define PELLUCID_NEED_LIGHT_RANGES 2097152u  // a light ends somewhere
 #define PELLUCID_NEED_ALL (8191u | PELLUCID_NEED_LIGHT_RANGES)
 // Beside them, how lights find pixels (passes/light_lists.hpp); neither: every light is tried at every pixel.
 #define PELLUCID_NEED_LIGHT_TILES 8192u
 #define PELLUCID_NEED_LIGHT_CLUSTERS 16384u
-#define PELLUCID_NEED_LIGHT_VOLUMES 32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
+#define PELLUCID_NEED_LIGHT_VOLUMES \
+    32768u  // opaque surfaces: lights with a range are added by passes/light_volumes.hpp
 #define PELLUCID_NEED_LIGHT_BLOCK 1048576u  // no lists, and all lights are in the uniform block
 // What a setting asks for.
 #define PELLUCID_NEED_SKY 65536u           // the procedural sky shines
@@ -54,19 +55,20 @@
 PELLUCID_GPU_BEGIN
 
 // Group 0, binding PELLUCID_BIND_FRAME.
+/// What is the same for all of a view: projection, lights, exposure.  Uniform block of group 0.
 struct FrameParams {
     vec4 world_x;  // columns of world_from_view (its rotation); w unused
     vec4 world_y;
     vec4 world_z;
-    vec4 clip_scale;  // sx, sy, ox, oy of ClipFromView
-    vec4 clip_depth;  // zz, zw, wz, ww of ClipFromView
-    vec4 view_scale;  // 1/sx, 1/sy; z, w unused
-    vec4 pixel;       // 2/width, 2/height, width, height
-    vec3 ambient;     // [cd/m²] constant radiance from everywhere
-    float exposure;   // factor before the tone map
-    vec3 background;  // linear radiance where nothing is
+    vec4 clip_scale;        // sx, sy, ox, oy of ClipFromView
+    vec4 clip_depth;        // zz, zw, wz, ww of ClipFromView
+    vec4 view_scale;        // 1/sx, 1/sy; z, w unused
+    vec4 pixel;             // 2/width, 2/height, width, height
+    vec3 ambient;           // [cd/m²] constant radiance from everywhere
+    float exposure;         // factor before the tone map
+    vec3 background;        // linear radiance where nothing is
     float environment_lod;  // last level of the prefiltered environment
-    vec3 camera_position;  // [m] world, rounded to float: only the classic G-buffer needs it
+    vec3 camera_position;   // [m] world, rounded to float: only the classic G-buffer needs it
     uint draw_count;
     // One past the last directional light, the last point or spot light that reaches everywhere, and the last one of
     // all (they are stored in this order); w: first word of the slices' lists.
@@ -79,6 +81,7 @@ PELLUCID_GPU_OFFSET(FrameParams, ambient, 112)
 PELLUCID_GPU_OFFSET(FrameParams, light_ends, 160)
 
 // Group 0, binding PELLUCID_BIND_RECORDS: one an instance, in draw order; the base instance is its index.
+/// Where an instance is, and what it is made of.  One an instance, in group 0.
 struct DrawRecord {
     vec3 axis_x;  // columns of view_from_object
     uint first_vertex;
@@ -101,6 +104,7 @@ PELLUCID_GPU_OFFSET(DrawRecord, origin, 48)
 PELLUCID_GPU_OFFSET(DrawRecord, normal_z, 96)
 
 // Scene group, PELLUCID_BIND_VERTICES.
+/// A vertex as it is pulled from the storage buffer of the scene.
 struct Vertex {
     vec3 position;  // [m] object space
     float u0;
@@ -114,6 +118,7 @@ PELLUCID_GPU_SIZE(Vertex, 64)
 PELLUCID_GPU_OFFSET(Vertex, tangent, 32)
 PELLUCID_GPU_OFFSET(Vertex, color, 56)
 
+/// Which layer of which array a material samples, and how.
 struct TextureUse {
     vec4 matrix;  // u' = x u + y v + offset.x, v' = z u + w v + offset.y (KHR_texture_transform)
     vec2 offset;
@@ -123,6 +128,7 @@ struct TextureUse {
 PELLUCID_GPU_SIZE(TextureUse, 32)
 
 // Scene group, PELLUCID_BIND_MATERIALS.
+/// A material in the table of the scene.
 struct MaterialRecord {
     vec4 base_color;
     vec3 emissive;
@@ -147,6 +153,7 @@ PELLUCID_GPU_OFFSET(MaterialRecord, base_color_texture, 64)
 // Scene group, PELLUCID_BIND_LIGHTS: in the order of FrameParams::light_ends.  Where PELLUCID_LIGHT_BLOCK or fewer are
 // looped over they are read from the uniform block, PELLUCID_BIND_LIGHT_BLOCK, which GPUs read faster.
 #define PELLUCID_LIGHT_BLOCK 64
+/// A light in view space.
 struct LightRecord {
     vec3 position;                // [m] view; unused for directional lights
     float inverse_range_squared;  // [1/m²] 0: unlimited

@@ -19,8 +19,8 @@
 #define PELLUCID_SHADOW_MAX_SLOPE 64.0  // of the receiver's plane against the map's: beyond 89.1° it is taken as that
 
 PELLUCID_GPU_BEGIN
-// Scene group, PELLUCID_BIND_SHADOWS.  Map space is in metres: x right, y up, z against the way that light travels, as
-// a camera sees it; depth = (z clip.x + clip.y) / w, with w = z clip.z + clip.w.
+/// Scene group, PELLUCID_BIND_SHADOWS.  Map space is in metres: x right, y up, z against the way that light travels, as
+/// a camera sees it; depth = (z clip.x + clip.y) / w, with w = z clip.z + clip.w.
 struct ShadowRecord {
     vec3 axis_x;  // rows of map_from_view
     float offset_x;

@@ -10,7 +10,7 @@
 #define PELLUCID_TONEMAP_ACES 3u
 #define PELLUCID_TONEMAP_AGX 4u
 
-#define PELLUCID_TONEMAP_OUTPUT 0  // storage image, rgba8: display-referred, sRGB-encoded
-#define PELLUCID_TONEMAP_INPUT 12  // sampled, rgba16_float: linear radiance
+#define PELLUCID_TONEMAP_OUTPUT 0       // storage image, rgba8: display-referred, sRGB-encoded
+#define PELLUCID_TONEMAP_INPUT 12       // sampled, rgba16_float: linear radiance
 #define PELLUCID_TONEMAP_GROUP_SIZE 16  // workgroup edge [pixel]: starting smaller groups takes longer than their work
 #endif

@@ -25,7 +25,7 @@ struct alignas(8) uvec2 {
 struct alignas(16) uvec4 {
     uint x = 0, y = 0, z = 0, w = 0;
 };
-}  // namespace pellucid::gpu
+}  // namespace pellucid::inline v0_1::gpu
 #define PELLUCID_GPU_BEGIN namespace pellucid::inline v0_1::gpu {
 #define PELLUCID_GPU_END }
 #define PELLUCID_GPU_DEFAULT(value) = value

@@ -59,4 +59,4 @@ private:
     typename B::Commands* commands_ = nullptr;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

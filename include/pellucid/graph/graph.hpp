@@ -22,6 +22,7 @@ struct GraphTexture {
     friend bool operator==(GraphTexture, GraphTexture) = default;
 };
 
+/// What a pass reads and writes: its order and its life follow from that.
 struct GraphPassDesc {
     const char* name = "pass";
     SmallVector<GraphTexture, 8> reads = {};
@@ -35,6 +36,7 @@ struct PassReport {
     bool ran = false;
     std::string reason;  ///< why it was left out; empty where it ran
 };
+/// What a texture of the graph takes.
 struct TextureReport {
     const char* name = "";
     std::uint64_t bytes = 0;
@@ -209,4 +211,4 @@ Result<void> Graph<B>::execute(Frame<B>& frame, Around&& around) {
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -13,6 +13,7 @@ namespace pellucid::inline v0_1::measure {
 /// Layers over each pixel, `[h, w, 1]`.
 using LayerCounts = Image<std::uint32_t>;
 
+/// How the numbers of layers of two pictures differ.
 struct LayerDifference {
     std::uint64_t pixels = 0;
     std::uint64_t different = 0;        ///< with another number of layers; the sum of the next two
@@ -27,6 +28,7 @@ struct LayerDifference {
 /// Errors: invalid_argument where they are not `[h, w, 1]` of one size.
 [[nodiscard]] inline Result<LayerDifference> layer_difference(const LayerCounts& test, const LayerCounts& reference);
 
+/// The errors of stable and of unstable pixels, apart.
 struct CoverageError {
     std::uint64_t stable_pixels = 0, unstable_pixels = 0;
     /// Errors as image_error.hpp has them, of the stable and of the unstable pixels alone.
@@ -86,6 +88,7 @@ std::string to_json(const LayerDifference& difference) {
     return object.close();
 }
 
+/// One JSON object with the members' names.
 std::string to_json(const CoverageError& error) {
     detail::JsonObject object;
     object.add("stable_pixels", error.stable_pixels).add("unstable_pixels", error.unstable_pixels);
@@ -93,4 +96,4 @@ std::string to_json(const CoverageError& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

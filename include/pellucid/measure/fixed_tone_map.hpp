@@ -64,4 +64,4 @@ namespace detail {
 }
 
 }  // namespace detail
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -107,4 +107,4 @@ PELLUCID_INLINE std::string to_json(const FlipError& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -21,6 +21,7 @@
 
 namespace pellucid::inline v0_1::measure {
 
+/// How a person looks at the pictures, and which pixels count.
 struct FlipOptions {
     double pixels_per_degree = flip::default_pixels_per_degree;  ///< in [1, 1000]; `flip::pixels_per_degree` makes one
     /// Null, or `[h, w, 1]`: pixels of value 255 are pooled.  The others are still seen by their neighbours.
@@ -53,7 +54,7 @@ namespace flip {
 [[nodiscard]] Image<double> error_map(const Image<double>& test, const Image<double>& reference, double ppd);
 
 }  // namespace flip
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/flip-inl.hpp>

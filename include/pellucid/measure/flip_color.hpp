@@ -12,9 +12,11 @@
 
 namespace pellucid::inline v0_1::measure::flip {
 
+/// A colour, or a row of a matrix.
 using Vec3 = std::array<double, 3>;
 using Mat3 = std::array<Vec3, 3>;  ///< rows
 
+/// m v.
 [[nodiscard]] constexpr Vec3 multiply(const Mat3& m, const Vec3& v) noexcept {
     Vec3 result{};
     for (std::size_t i = 0; i < 3; ++i) result[i] = m[i][0] * v[0] + m[i][1] * v[1] + m[i][2] * v[2];
@@ -56,6 +58,7 @@ inline constexpr double color_exponent = 0.7, break_distance = 0.4, break_error 
     return {116 * y - 16, 500 * (x - y), 200 * (y - z)};
 }
 
+/// The inverse of the conversion to YyCxCz, to linear RGB.
 [[nodiscard]] constexpr Vec3 rgb_from_ycxcz(const Vec3& color) noexcept {
     const double y = (color[0] + 16) / 116;
     return multiply(rgb_from_xyz,
@@ -100,4 +103,4 @@ inline constexpr double color_exponent = 0.7, break_distance = 0.4, break_error 
     return std::min(break_error + (1 - break_error) * (power - bend) / (max_color_distance() - bend), 1.0);
 }
 
-}  // namespace pellucid::measure::flip
+}  // namespace pellucid::inline v0_1::measure::flip

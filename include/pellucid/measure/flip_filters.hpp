@@ -97,6 +97,7 @@ ContrastFilters contrast_filters(double ppd) {
     return filters;
 }
 
+/// The filters of edges and of points for `ppd` pixels per degree.
 FeatureFilters feature_filters(double ppd) {
     const double sigma = 0.5 * 0.082 * ppd;
     const int radius = static_cast<int>(std::ceil(3 * sigma));
@@ -110,4 +111,4 @@ FeatureFilters feature_filters(double ppd) {
     return filters;
 }
 
-}  // namespace pellucid::measure::flip
+}  // namespace pellucid::inline v0_1::measure::flip

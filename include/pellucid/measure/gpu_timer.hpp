@@ -21,6 +21,7 @@
 
 namespace pellucid::inline v0_1::measure {
 
+/// How much a timer can hold.
 struct GpuTimerDesc {
     std::uint32_t frames_in_flight = 2;  ///< as in `rhi::DeviceDesc`
     std::uint32_t max_scopes = 64;       ///< in one frame; > 0
@@ -187,4 +188,4 @@ Result<std::span<const GpuSpan>> GpuTimer<B>::collect() {
     return std::span<const GpuSpan>(spans_);
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

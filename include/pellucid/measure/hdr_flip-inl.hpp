@@ -101,4 +101,4 @@ PELLUCID_INLINE std::string to_json(const HdrFlipError& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

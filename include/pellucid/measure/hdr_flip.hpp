@@ -19,6 +19,7 @@
 
 namespace pellucid::inline v0_1::measure {
 
+/// How a person looks at the pictures, and at which exposures.
 struct HdrFlipOptions {
     double pixels_per_degree = flip::default_pixels_per_degree;  ///< in [1, 1000]
     const Image8* mask = nullptr;                                ///< as in `FlipOptions`; exposures ignore it
@@ -28,6 +29,7 @@ struct HdrFlipOptions {
     std::uint32_t exposures = 0;  ///< 2 … 256; 0: max(2, ⌈stop − start⌉)
 };
 
+/// The largest errors over all exposures.
 struct HdrFlipError {
     FlipError error;  ///< of the largest errors
     ImageF exposure;  ///< [h, w, 1]: the exposure [stops] that shows the largest error first, `start_exposure` if none
@@ -60,7 +62,7 @@ struct ExposureRange {
 [[nodiscard]] std::uint32_t exposure_count(const ExposureRange& range) noexcept;
 
 }  // namespace flip
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/hdr_flip-inl.hpp>

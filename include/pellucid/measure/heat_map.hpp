@@ -11,8 +11,10 @@
 
 namespace pellucid::inline v0_1::measure {
 
+/// How errors become colours.
 enum class HeatScale : std::uint8_t { linear, logarithmic };
 
+/// The range of a heat map's colours, and its mask.
 struct HeatMapOptions {
     HeatScale scale = HeatScale::logarithmic;
     double low = 0;   ///< error of the darkest colour; logarithmic: > 0, or 0 for high/10⁴
@@ -28,6 +30,7 @@ struct HeatMap {
     double low = 0, high = 0;  ///< what was used; high = 0 where no pixel has an error
 };
 
+/// An sRGB colour.
 using Rgb8 = std::array<std::uint8_t, 3>;
 
 /// The colour at `t` in [0,1] (limited; NaN gives the darkest): black through violet, red and orange to white.
@@ -83,4 +86,4 @@ HeatMap heat_map(const ImageF& error, const HeatMapOptions& options) {
     return map;
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

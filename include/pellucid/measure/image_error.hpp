@@ -22,8 +22,10 @@
 
 namespace pellucid::inline v0_1::measure {
 
+/// Absolute: |v − r|; scaled: that over max(1, |r|).
 enum class ErrorScale : std::uint8_t { absolute, scaled };
 
+/// How errors are scaled, and which pixels count.
 struct ImageErrorOptions {
     ErrorScale scale = ErrorScale::absolute;
     /// Null, or `[h, w, 1]`: pixels of value 255 are compared, all others are not.
@@ -36,6 +38,7 @@ struct WorstPixel {
     float value = 0, reference = 0;
 };
 
+/// Errors of floats: the file's comment has the definitions.
 struct ImageError {
     ErrorScale scale = ErrorScale::absolute;  ///< of mean, rmse, max and p999
     std::uint64_t pixels = 0;                 ///< compared
@@ -58,6 +61,7 @@ struct ImageError {
     [[nodiscard]] bool bit_equal() const noexcept { return different_bits == 0; }
 };
 
+/// Errors of 8-bit codes.
 struct Image8Error {
     std::uint64_t pixels = 0;            ///< compared
     std::uint64_t masked_out = 0;        ///< pixels that the mask left out
@@ -258,6 +262,7 @@ std::string to_json(const ImageError& error) {
     return object.close();
 }
 
+/// One JSON object with the members' names.
 std::string to_json(const Image8Error& error) {
     detail::JsonObject object;
     object.add("pixels", error.pixels).add("masked_out", error.masked_out);
@@ -266,4 +271,4 @@ std::string to_json(const Image8Error& error) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -97,4 +97,4 @@ std::string to_json(const OrderVariance& variance) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -60,4 +60,4 @@ std::string to_json(const ToneMappedPsnr& result) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -145,4 +145,4 @@ PELLUCID_INLINE std::string to_text(const QualityReport& report) {
     return text + ".";
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

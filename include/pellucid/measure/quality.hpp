@@ -15,6 +15,7 @@
 namespace pellucid::inline v0_1 {
 namespace measure {
 
+/// Which metrics `quality` computes: flags.
 enum class QualityMetrics : std::uint32_t {
     errors = 1,  ///< image_error.hpp, absolute and scaled
     tone_mapped_psnr = 2,
@@ -25,6 +26,7 @@ enum class QualityMetrics : std::uint32_t {
     all = 63
 };
 
+/// Which metrics, over which pixels.
 struct QualityOptions {
     QualityMetrics metrics = QualityMetrics::all;
     /// Null, or `[h, w, 1]`: 255 = stable.  Every metric but the coverage is of these pixels; the coverage has the
@@ -70,7 +72,7 @@ struct QualityReport {
 template <>
 inline constexpr bool enable_flags<measure::QualityMetrics> = true;
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/quality-inl.hpp>

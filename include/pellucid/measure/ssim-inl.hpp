@@ -83,4 +83,4 @@ PELLUCID_INLINE std::string to_json(const SsimResult& result) {
     return object.close();
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

@@ -20,6 +20,7 @@ namespace pellucid::inline v0_1::measure {
 
 inline constexpr std::uint32_t ssim_window = 11;  ///< side of a window [pixel]
 
+/// SSIM of two pictures: the map and its mean.
 struct SsimResult {
     ImageF map;                 ///< [h, w, 1]: SSIM in [−1,1] of the window around a pixel; NaN: no full window there
     std::uint64_t windows = 0;  ///< that count: full, with a centre that the mask lets through
@@ -35,7 +36,7 @@ struct SsimResult {
 /// One JSON object with the members' names but the map; a mean of nothing becomes null.
 [[nodiscard]] std::string to_json(const SsimResult& result);
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/measure/ssim-inl.hpp>

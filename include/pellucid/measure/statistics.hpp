@@ -57,8 +57,9 @@ struct Summary {
             .mean = sum / static_cast<double>(values.size())};
 }
 
+/// The middle value, or the mean of the middle two; NaN for no values.
 [[nodiscard]] inline double median(std::vector<double> values) {
     return summarize(std::move(values)).median;
 }
 
-}  // namespace pellucid::measure
+}  // namespace pellucid::inline v0_1::measure

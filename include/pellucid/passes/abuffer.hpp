@@ -7,6 +7,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What an A-buffer stores, in how much memory.
 struct AbufferDesc {
     FragmentDesc fragments = {};
     FragmentContent content = FragmentContent::colors;  ///< surfaces: lit in compute, and only what is seen
@@ -110,4 +111,4 @@ void AbufferPass<B>::record(typename B::Commands& cmd, rhi::Texture depth, const
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

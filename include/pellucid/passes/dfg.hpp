@@ -50,4 +50,4 @@ private:
     rhi::Unique<typename B::Device, rhi::Pipeline> pipeline_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -11,6 +11,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// One draw: a range of the scene's indices, and the record of the instance.
 struct DrawItem {
     std::uint32_t first_index = 0;
     std::uint32_t index_count = 0;
@@ -87,4 +88,4 @@ void draw_items(typename B::Commands& cmd, const CullVariants<B>& variants, cons
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -10,6 +10,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How far dual peeling goes.
 struct DualPeelDesc {
     FragmentDesc fragments = {};
     std::uint32_t max_passes = 0;  ///< each peels two layers; 0: as many as there are
@@ -169,4 +170,4 @@ void DualPeelPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
         cmd, {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

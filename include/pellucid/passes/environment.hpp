@@ -32,6 +32,7 @@ namespace pellucid::inline v0_1 {
     return t * t;
 }
 
+/// Projects a picture onto a cube map and prefilters its levels, once.
 template <rhi::Backend B>
 class EnvironmentPass {
 public:
@@ -218,4 +219,4 @@ void EnvironmentPass<B>::record(typename B::Commands& cmd) const {
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What every method of transparency must know to draw and light fragments.
 struct FragmentDesc {
     Extent2D size = {};  ///< [texel] of the picture
     Brdf brdf = Brdf::gltf;
@@ -37,4 +38,4 @@ struct FragmentDesc {
     }
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -232,4 +232,4 @@ void FragmentLists<B>::walk(typename B::Commands& cmd, const StripBand& band, co
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

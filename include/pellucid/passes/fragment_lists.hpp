@@ -18,6 +18,7 @@ enum class FragmentContent : std::uint8_t {
     surfaces  ///< to be lit by whoever walks them, 32 bytes: normals within 0.0025°, the rest in 16 bits, metallic in 8
 };
 
+/// What the lists hold, in how much memory.
 struct FragmentListsDesc {
     FragmentDesc fragments = {};
     FragmentContent content = FragmentContent::colors;
@@ -119,6 +120,6 @@ private:
     std::uint32_t rows_ = 0;  ///< of `nodes_`
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/passes/fragment_lists-inl.hpp>

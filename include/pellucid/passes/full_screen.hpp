@@ -33,6 +33,7 @@ struct BoundTexture {
     for (const std::uint32_t b : bindings) layout.bindings.push_back({b, rhi::BindingKind::sampled_texture});
     return layout;
 }
+/// A pass group of sampled textures.
 [[nodiscard]] inline rhi::GroupDesc sampled_group(rhi::Sampler sampler, const SmallVector<BoundTexture, 8>& textures,
                                                   const char* debug_name) {
     rhi::GroupDesc group{.debug_name = debug_name};
@@ -43,6 +44,7 @@ struct BoundTexture {
     return group;
 }
 
+/// A fragment shader over the picture, what it reads, and the state that it is drawn with.
 struct FullScreenDesc {
     const rhi::Shader* fragment = nullptr;
     std::span<const rhi::SpecConstant> constants = {};
@@ -102,4 +104,4 @@ private:
     rhi::Unique<typename B::Device, rhi::Pipeline> pipeline_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

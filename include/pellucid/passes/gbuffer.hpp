@@ -8,10 +8,12 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How surfaces are stored (gpu/gbuffer.h).
 enum class GBufferLayout : std::uint8_t {
     compact,  ///< 16 bytes a pixel: position comes from depth, normals are octahedral (largest error 0.0025°)
     classic   ///< 36 bytes a pixel: stored world position, half-float normals; kept to be measured
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(GBufferLayout l) noexcept {
     return l == GBufferLayout::compact ? "compact" : "classic";
 }
@@ -28,6 +30,7 @@ enum class GBufferLayout : std::uint8_t {
     return formats;
 }
 
+/// Which layout, and what of the scene its shaders must handle.
 struct GBufferDesc {
     GBufferLayout layout = GBufferLayout::compact;
     bool emissive = false;                    ///< add the target for emitted radiance
@@ -107,4 +110,4 @@ void GBufferPass<B>::record(typename B::Commands& cmd, const GBufferTargets& tar
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Deferred translucency's memory, its end of a pixel, its audit.
 struct InterleavedDesc {
     FragmentDesc fragments = {};
     std::uint64_t memory_budget = 0;  ///< [byte] for stored fragments; 0: what the device can bind
@@ -156,4 +157,4 @@ void InterleavedPass<B>::record_merge(typename B::Commands& cmd, rhi::Texture de
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

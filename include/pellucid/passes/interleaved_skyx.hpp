@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The G-buffer that the layers share, and one of its peculiarities.
 struct InterleavedSkyxDesc {
     GBufferDesc gbuffer = {};  ///< as that of the opaque pass; `culls` those of translucent instances
     bool alpha_gain = false;   ///< see InterleavedSkyxPass
@@ -143,4 +144,4 @@ void InterleavedSkyxPass<B>::record_merge(typename B::Commands& cmd) const {
                   {.colors = {{.texture = targets_.hdr, .load = rhi::Load::discard}}, .size = targets_.gbuffer.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

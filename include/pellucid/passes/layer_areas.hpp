@@ -40,4 +40,4 @@ namespace pellucid::inline v0_1 {
     return areas;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -160,4 +160,4 @@ LayerTotals LayerCountPass<B>::totals() const {
     return t;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

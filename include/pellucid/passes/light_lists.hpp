@@ -14,6 +14,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How lights find the pixels that they reach.
 enum class LightAssignment : std::uint8_t {
     automatic,  ///< by the number of lights: `scene_needs` says which and why
     loop,       ///< every light is tried at every pixel
@@ -21,6 +22,7 @@ enum class LightAssignment : std::uint8_t {
     tiled,     ///< lists of lights by tile, bounded by opaque depth
     clustered  ///< lists of lights by tile and slice of the view
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(LightAssignment a) noexcept {
     constexpr const char* names[] = {"auto", "loop", "volumes", "tiled", "clustered"};
     return names[static_cast<std::size_t>(a)];
@@ -130,4 +132,4 @@ void LightListsPass<B>::record(typename B::Commands& cmd, const SceneBinding& sc
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -24,6 +24,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Draws the volumes of lights with a range; the file's comment says how.
 template <rhi::Backend B>
 class LightVolumesPass {
 public:
@@ -33,6 +34,8 @@ public:
     [[nodiscard]] static Result<LightVolumesPass> create(typename B::Device& device, const LightingDesc& desc,
                                                          const GBufferTargets& gbuffer, rhi::Texture picture,
                                                          std::span<const Light> lights, std::uint32_t first_ranged);
+    /// Other lights in the place of those of `create`, as many and stored alike.
+    void set_lights(std::span<const Light> lights, std::uint32_t first_ranged);
     /// Records three passes.  Precondition: no pass is open.
     void record(typename B::Commands& cmd, const SceneBinding& scene) const;
 
@@ -118,14 +121,7 @@ Result<LightVolumesPass<B>> LightVolumesPass<B>::create(typename B::Device& devi
     pass.sphere_corners_ = static_cast<std::uint32_t>(corners.size());
     for (const gpu::vec4& corner : detail::volume_cone()) corners.push_back(corner);
     pass.cone_corners_ = static_cast<std::uint32_t>(corners.size()) - pass.sphere_corners_;
-    for (std::uint32_t i = first_ranged; i < lights.size(); ++i) {
-        const Light& l = lights[i];
-        const bool cone = l.kind == LightKind::spot && l.outer_cone <= detail::widest_cone;
-        pass.volumes_.push_back({.light = i,
-                                 .first_corner = cone ? pass.sphere_corners_ : 0,
-                                 .reach = 1.0001f * l.range,
-                                 .width = cone ? 1.0001f * l.range * static_cast<float>(std::tan(l.outer_cone)) : 0});
-    }
+    pass.set_lights(lights, first_ranged);
     using enum rhi::TextureUsage;
     PELLUCID_OWN(pass.sum_, device,
                  device.make_texture({.size = gbuffer.size,
@@ -208,6 +204,19 @@ Result<LightVolumesPass<B>> LightVolumesPass<B>::create(typename B::Device& devi
 }
 
 template <rhi::Backend B>
+void LightVolumesPass<B>::set_lights(std::span<const Light> lights, std::uint32_t first_ranged) {
+    volumes_.clear();
+    for (std::uint32_t i = first_ranged; i < lights.size(); ++i) {
+        const Light& l = lights[i];
+        const bool cone = l.kind == LightKind::spot && l.outer_cone <= detail::widest_cone;
+        volumes_.push_back({.light = i,
+                            .first_corner = cone ? sphere_corners_ : 0,
+                            .reach = 1.0001f * l.range,
+                            .width = cone ? 1.0001f * l.range * static_cast<float>(std::tan(l.outer_cone)) : 0});
+    }
+}
+
+template <rhi::Backend B>
 void LightVolumesPass<B>::record(typename B::Commands& cmd, const SceneBinding& scene) const {
     depth_->record(cmd, {.depth = {.texture = stencil_, .load = rhi::Load::clear}, .size = size_});
     rhi::RenderPassDesc lit{.colors = {{.texture = sum_}},
@@ -241,4 +250,4 @@ void LightVolumesPass<B>::record(typename B::Commands& cmd, const SceneBinding& 
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

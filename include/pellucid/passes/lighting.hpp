@@ -11,21 +11,26 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Where lighting runs: a compute shader, or a full-screen triangle.
 enum class ShadingStage : std::uint8_t { compute, fragment };
+/// The reflection model (reference/brdf.hpp).
 enum class Brdf : std::uint8_t {
-    gltf,        ///< GGX (Lagrange form), height-correlated Smith, Schlick, diffuse (1 - F)(1 - metallic) base / pi
-    seed,        ///< the terms of the document the project grew from, kept to be measured
+    gltf,         ///< GGX (Lagrange form), height-correlated Smith, Schlick, diffuse (1 - F)(1 - metallic) base / pi
+    seed,         ///< the terms of the document the project grew from, kept to be measured
     blinn_phong,  ///< likewise
     conserving    ///< gltf's lobe, what it scatters more than once, and a diffuse part with exactly the rest
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(ShadingStage s) noexcept {
     return s == ShadingStage::compute ? "compute" : "fragment";
 }
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(Brdf b) noexcept {
     constexpr const char* names[] = {"gltf", "seed", "blinn-phong", "conserving"};
     return names[static_cast<std::size_t>(b)];
 }
 
+/// What is lit, where and by which model.
 struct LightingDesc {
     GBufferLayout layout = GBufferLayout::compact;
     bool emissive = false;  ///< the G-buffer has a target for emitted radiance
@@ -194,4 +199,4 @@ void LightingPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

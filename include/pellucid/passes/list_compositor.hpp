@@ -7,6 +7,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The lists, and where a pixel ends.
 struct ListCompositorDesc {
     FragmentListsDesc lists = {};
     float min_transmittance = 0;  ///< a pixel is done where no more gets through; 0: only what nothing can change
@@ -101,4 +102,4 @@ void ListCompositor<B>::record(typename B::Commands& cmd, const StripBand& band,
     lists_.walk(cmd, band, scene, uses, each, group, desc_.audit ? -1.0f : desc_.min_transmittance, name);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -98,7 +98,7 @@ void PeelPass<B>::nearest(typename B::Commands& cmd, const SceneBinding& scene, 
 template <rhi::Backend B>
 void PeelPass<B>::advance(typename B::Commands& cmd) const {
     const gpu::PeelAdvance push{.min_transmittance = desc_.audit ? -1.0f : desc_.min_transmittance};
-    const FullScreenPass<B>& pass = recorded_ == 0 ? advance_first_ : advance_;
+    const FullScreenPass<B>& pass = nothing_composited() ? advance_first_ : advance_;
     pass.record(cmd, {.depth = {.texture = targets_.layer, .clear = 0}, .size = desc_.fragments.size},
                 [&](typename B::Commands& c, auto&& draw) {
                     c.push(rhi::bytes_of(push));
@@ -135,7 +135,7 @@ void PeelPass<B>::record_layers(typename B::Commands& cmd, const SceneBinding& s
             probed_ = true;
             return;
         }
-        layer(cmd, scene, reversed);
+        if (recorded_ >= desc_.first_layer) layer(cmd, scene, reversed);
     }
 }
 
@@ -158,7 +158,7 @@ Result<bool> PeelPass<B>::more(typename B::Device& device) {
 
 template <rhi::Backend B>
 void PeelPass<B>::composite(typename B::Commands& cmd) const {
-    if (recorded_ == 0) {  // nothing there: only the sums are read
+    if (nothing_composited()) {  // only the sums are read
         rhi::RenderPassDesc clear{.size = desc_.fragments.size, .name = "peel.clear"};
         add_sums(clear);
         cmd.begin_render(clear);
@@ -173,4 +173,4 @@ void PeelPass<B>::composite(typename B::Commands& cmd) const {
                       });
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -13,11 +13,13 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How far peeling goes.
 struct PeelDesc {
     FragmentDesc fragments = {};
-    std::uint32_t max_layers = 0;  ///< 0: as many as there are
-    float min_transmittance = 0;   ///< a pixel is done where no more gets through; 0: only what nothing can change
-    bool audit = false;            ///< count what each pixel composited, and composite it all
+    std::uint32_t max_layers = 0;   ///< 0: as many as there are
+    std::uint32_t first_layer = 0;  ///< those before it are peeled, but not composited
+    float min_transmittance = 0;    ///< a pixel is done where no more gets through; 0: only what nothing can change
+    bool audit = false;             ///< count what each pixel composited, and composite it all
 };
 
 /// `[h, w]` each; `hdr` and `opaque` are the frame's, the rest belongs to the pass.
@@ -38,8 +40,8 @@ struct PeelTargets {
 ///     what is there, C += T c, T *= 1 - a, in single precision; the last primitive first.
 /// It goes on until no pixel has a layer, by an occlusion query of `advance`, so any number of layers is composited;
 /// every fragment is shaded once.  With `max_layers` or `min_transmittance` t > 0 the error of a pixel is at most the
-/// share of light that its composited layers let through (for t: at most t) times the largest radiance behind. Shaders:
-/// shaders/peel.
+/// share of light that its composited layers let through (for t: at most t) times the largest radiance behind.  One
+/// layer k alone is `first_layer` k and `max_layers` k + 1.  Shaders: shaders/peel.
 template <rhi::Backend B>
 class PeelPass {
 public:
@@ -47,6 +49,11 @@ public:
     [[nodiscard]] static Result<PeelPass> create(typename B::Device& device, const PeelDesc& desc,
                                                  const PeelTargets& targets);
 
+    /// Other `first_layer` and `max_layers` than those of `create`, from the next `begin` on.
+    void set_layers(std::uint32_t first, std::uint32_t most) {
+        desc_.first_layer = first;
+        desc_.max_layers = most;
+    }
     /// Starts a frame.  `areas[k]`: pixels outside have no layer k, and none has a layer beyond the last
     /// (`layer_areas`): passes are drawn in there.  Empty: nothing is known, and they are drawn over the whole picture.
     void begin(std::vector<rhi::Rect> areas = {});
@@ -59,7 +66,7 @@ public:
     /// Records the layers over `hdr`.
     void composite(typename B::Commands& cmd) const;
 
-    [[nodiscard]] std::uint32_t layers() const { return found_; }        ///< of the last frame
+    [[nodiscard]] std::uint32_t layers() const { return found_; }        ///< of the last frame, from the nearest one on
     [[nodiscard]] bool truncated() const { return truncated_; }          ///< max_layers left fragments out
     [[nodiscard]] rhi::Texture sum() const { return targets_.sum; }      ///< colour and transmittance of all layers
     [[nodiscard]] rhi::Texture count() const { return targets_.count; }  ///< fragments composited; audit only
@@ -71,9 +78,11 @@ private:
     void nearest(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> items) const;
     void advance(typename B::Commands& cmd) const;
     void layer(typename B::Commands& cmd, const SceneBinding& scene, std::span<const DrawItem> reversed) const;
+    /// Nothing is composited yet: the sums hold nothing.
+    [[nodiscard]] bool nothing_composited() const { return recorded_ <= desc_.first_layer; }
     /// What layers are summed up in, cleared by the first pass that has it.
     void add_sums(rhi::RenderPassDesc& pass) const {
-        const rhi::Load load = recorded_ == 0 ? rhi::Load::clear : rhi::Load::load;
+        const rhi::Load load = nothing_composited() ? rhi::Load::clear : rhi::Load::load;
         pass.colors.push_back({.texture = targets_.sum, .load = load, .clear = {0, 0, 0, 1}});
         if (desc_.audit) pass.colors.push_back({.texture = targets_.count, .load = load});
     }
@@ -100,6 +109,6 @@ private:
     bool truncated_ = false;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/passes/peel-inl.hpp>

@@ -11,6 +11,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How many layers, and which of two composites.
 struct PeelSeedDesc {
     FragmentDesc fragments = {};
     std::uint32_t layers = PELLUCID_PEEL_SEED_LAYERS;  ///< > 0
@@ -129,4 +130,4 @@ void PeelSeedPass<B>::record(typename B::Commands& cmd, const SceneBinding& scen
                       {.colors = {{.texture = targets_.hdr, .load = rhi::Load::load}}, .size = desc_.fragments.size});
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

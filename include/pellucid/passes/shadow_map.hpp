@@ -12,6 +12,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What of the scene casts shadows.
 struct ShadowMapDesc {
     std::uint32_t needs = PELLUCID_NEED_ALL;  ///< PELLUCID_NEED_* of the scene
     std::uint32_t opaque_culls = 7;           ///< bit (1 << Cull) for each way of culling of opaque casters
@@ -25,6 +26,7 @@ struct ShadowMapTarget {
     std::uint32_t size = 0;
 };
 
+/// Draws the depth that a light sees.
 template <rhi::Backend B>
 class ShadowMapPass {
 public:
@@ -81,4 +83,4 @@ void ShadowMapPass<B>::record(typename B::Commands& cmd, const ShadowMapTarget& 
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

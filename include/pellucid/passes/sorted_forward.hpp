@@ -31,6 +31,7 @@ inline void sort_back_to_front(std::vector<SortedItem>& items) {
     });
 }
 
+/// How fragments are lit, and which pipelines are built.
 struct SortedForwardDesc {
     Brdf brdf = Brdf::gltf;
     std::uint32_t needs = PELLUCID_NEED_ALL;
@@ -107,4 +108,4 @@ void SortedForwardPass<B>::record(typename B::Commands& cmd, rhi::Texture hdr, r
     cmd.end_render();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -45,4 +45,4 @@ struct StripBand {
     return bands;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// From linear radiance to display-referred colour (reference/tonemap.hpp has the formulae).
 enum class ToneCurve : std::uint8_t {
     none = PELLUCID_TONEMAP_NONE,          ///< clamp to [0,1]
     reinhard = PELLUCID_TONEMAP_REINHARD,  ///< c / (1 + c), per channel
@@ -16,6 +17,7 @@ enum class ToneCurve : std::uint8_t {
     aces = PELLUCID_TONEMAP_ACES,          ///< Narkowicz 2015
     agx = PELLUCID_TONEMAP_AGX             ///< Sobotka's AgX, polynomial sigmoid
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(ToneCurve c) noexcept {
     constexpr const char* names[] = {"none", "reinhard", "neutral", "aces", "agx"};
     return names[static_cast<std::size_t>(c)];
@@ -79,4 +81,4 @@ void TonemapPass<B>::record(typename B::Commands& cmd, rhi::UniformSlice frame) 
     cmd.end_compute();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -147,4 +147,4 @@ BrdfResponse<T> evaluate_blinn_phong(const Surface<T>& surface, glm::vec<3, T> t
     return response;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -123,4 +123,4 @@ glm::vec<3, T> normal_reflectance(const Surface<T>& surface) noexcept {
     return dielectric + (surface.base_color - dielectric) * surface.metallic;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -23,4 +23,4 @@ struct Composite {
     }
 };
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

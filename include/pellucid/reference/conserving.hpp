@@ -112,4 +112,4 @@ BrdfResponse<T> constant_environment_response(const Surface<T>& surface, T n_dot
     return {left * surface.base_color * (T(1) - surface.metallic), view.specular_albedo};
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -212,4 +212,4 @@ glm::dvec3 sample_cube(const CubeChain& cube, glm::dvec3 direction, double lod) 
     return share > 0 ? bilinear(level) * (1 - share) + bilinear(level + 1) * share : bilinear(level);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

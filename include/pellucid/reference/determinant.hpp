@@ -94,4 +94,4 @@ int sign_of_determinant(const glm::dvec3& a, const glm::dvec3& b, const glm::dve
     return sum.sign();
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

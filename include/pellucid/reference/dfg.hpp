@@ -167,4 +167,4 @@ Dfg<double> exact_dfg_average(double alpha) {
     return out;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

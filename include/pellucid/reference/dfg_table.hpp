@@ -19,11 +19,13 @@
 
 namespace pellucid::inline v0_1::reference {
 
+/// What a texel of the table holds.
 struct DfgTexel {
     float loss = 0;
     float shift = 0;
 };
 
+/// What texels are rounded to.
 enum class DfgStorage : std::uint8_t { float32, float16 };
 
 /// The roughness that stands for 0 in the first row: its x still spans all μ/α.
@@ -37,6 +39,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] T dfg_cosine(T x, T roughness) noexcept;
 
+/// The directional albedo of the GGX lobe, over cosine and roughness.
 class DfgTable {
 public:
     /// No texels: that of a mirror at every roughness (loss 0, bias (1 − μ)⁵).
@@ -184,4 +187,4 @@ Dfg<T> DfgTable::average(T roughness) const noexcept {
     return {blend(low.loss, high.loss), blend(low.bias, high.bias)};
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -45,6 +45,7 @@ struct BasicFrame {
         return x * local.x + y * local.y + axis * local.z;
     }
 };
+/// In double.
 using Frame = BasicFrame<double>;
 
 /// How much of a lobe around R lies at the cosine μ = R·L, by solid angle and not normalised, under the usual
@@ -196,6 +197,7 @@ glm::dvec3 diffuse_radiance(const ImageF& image, glm::dvec3 normal, std::size_t 
         image, [&](glm::dvec3 l) { return std::max(glm::dot(normal, l), 0.0) / std::numbers::pi; }, points);
 }
 
+/// The GGX-prefiltered radiance of a picture around `axis`.
 glm::dvec3 prefiltered_radiance(const ImageF& image, glm::dvec3 axis, double alpha, std::size_t points) {
     const auto weight = [&](glm::dvec3 l) {
         const glm::dvec3 difference = axis - l;
@@ -204,4 +206,4 @@ glm::dvec3 prefiltered_radiance(const ImageF& image, glm::dvec3 axis, double alp
     return integrate_image(image, weight, points) / prefilter_total(alpha);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -76,4 +76,4 @@ glm::dvec3 white_furnace(BrdfModel model, const Surface<double>& surface, double
     return integrate_lobe(mu, punctual_alpha(surface.roughness), steps, lobe) + integrate_smooth(mu, rest);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -60,6 +60,7 @@ template <std::floating_point T>
 template <std::floating_point T>
 [[nodiscard]] Surface<T> unpack_surface(const CompactTexel& texel) noexcept;
 
+/// The flags of a packed material.
 [[nodiscard]] constexpr std::uint8_t material_flags(std::uint32_t material) noexcept {
     return static_cast<std::uint8_t>(material >> 24u);
 }
@@ -177,6 +178,7 @@ CompactTexel pack_surface(const Surface<T>& surface, std::uint8_t flags, float d
             depth};
 }
 
+/// The surface that a texel stands for.
 template <std::floating_point T>
 Surface<T> unpack_surface(const CompactTexel& texel) noexcept {
     Surface<T> surface;
@@ -189,4 +191,4 @@ Surface<T> unpack_surface(const CompactTexel& texel) noexcept {
     return surface;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

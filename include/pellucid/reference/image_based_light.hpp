@@ -61,4 +61,4 @@ private:
     return single * light(mirrored, surface.roughness) + (several + rest) * light(surface.normal, 1.0);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -87,4 +87,4 @@ template <std::floating_point T, class Radiance>
     return sum / total;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

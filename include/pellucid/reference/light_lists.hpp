@@ -17,6 +17,7 @@
 
 namespace pellucid::inline v0_1::reference {
 
+/// A sphere around all that a light reaches.
 struct LightSphere {
     glm::dvec3 center{0, 0, 0};  ///< [m] view space
     double radius = 0;           ///< [m] infinite where the light has no range
@@ -64,4 +65,4 @@ struct ViewColumn {
     });
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -144,4 +144,4 @@ glm::dvec3 surface_radiance(const Surface<double>& surface, glm::dvec3 position,
         environment);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

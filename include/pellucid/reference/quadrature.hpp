@@ -62,4 +62,4 @@ template <class F>
     return sum * (step * half);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -53,6 +53,7 @@ struct PixelRect {
     [[nodiscard]] bool empty() const noexcept { return left >= right || top >= bottom; }
     friend bool operator==(const PixelRect&, const PixelRect&) = default;
 };
+/// The pixels of both.
 [[nodiscard]] inline PixelRect intersection(const PixelRect& a, const PixelRect& b) noexcept {
     return {std::max(a.left, b.left), std::max(a.top, b.top), std::min(a.right, b.right), std::min(a.bottom, b.bottom)};
 }
@@ -223,4 +224,4 @@ inline std::optional<double> RasterTriangle::depth(const SamplePoint& sample) co
     return std::clamp(z / w, 0.0, 1.0);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

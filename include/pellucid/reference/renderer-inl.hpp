@@ -181,10 +181,16 @@ PELLUCID_INLINE Result<Picture> render(const Scene& scene, const Camera& camera,
         }
         const detail::Tiles tiles = detail::make_tiles(*prepared);
         detail::Progress progress(options, tiles.count());
+        std::atomic<bool> complete = true;
         oneapi::tbb::parallel_for(std::size_t{0}, tiles.count(), [&](std::size_t tile) {
+            if (options.stop && options.stop->load(std::memory_order_relaxed)) {
+                complete = false;
+                return;
+            }
             detail::draw_tile(*prepared, tiles.rect(tile, options.size), tiles.of(tile), picture);
             progress.step();
         });
+        picture.complete = complete;
     });
     return result;
 } catch (const std::bad_alloc&) {
@@ -220,4 +226,4 @@ PELLUCID_INLINE Result<std::vector<Fragment>> fragments_at(const Scene& scene, c
     return detail::out_of_memory(options);
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

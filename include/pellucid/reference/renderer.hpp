@@ -21,6 +21,7 @@
 /// texture); blended ones cast none.  A point's own triangle never shadows it.
 ///
 /// Link `pellucid::reference` (it needs TBB).
+#include <atomic>
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <pellucid/core/config.hpp>
@@ -36,6 +37,7 @@ namespace pellucid::inline v0_1::reference {
 /// Longest side of a picture.
 inline constexpr std::uint32_t max_picture_side = 16384;
 
+/// What the reference renderer draws with.
 struct RenderOptions {
     Extent2D size{256, 256};           ///< [pixel] each side in 1 … `max_picture_side`
     glm::dvec3 background{0, 0, 0};    ///< linear radiance where nothing is; finite
@@ -53,8 +55,11 @@ struct RenderOptions {
     /// Called with the share that is done: rising, 1 at last, one call at a time, from any thread.  Null: not called.
     void (*progress)(void* user, double fraction) = nullptr;
     void* user = nullptr;  ///< passed to `progress`
+    /// Any thread may set it: then no further tile of pixels is begun, and the picture is not complete.  Null: never.
+    const std::atomic<bool>* stop = nullptr;
 };
 
+/// What it drew.
 struct Picture {
     ImageF radiance;  ///< [h, w, 3] linear, before tone mapping; computed in double and rounded once
     /// [h, w, 1] blended fragments in front of the nearest opaque one, whatever their alpha.
@@ -65,6 +70,7 @@ struct Picture {
     /// that rasterises on a grid of 1/256 pixel, and rounds to single precision; else 0.  Empty unless `stability` was
     /// asked for.
     Image8 stable;
+    bool complete = true;  ///< false where RenderOptions::stop left pixels out: they are 0
 };
 
 /// One fragment of a pixel.
@@ -90,7 +96,7 @@ struct Fragment {
                                                          const RenderOptions& options, std::uint32_t x,
                                                          std::uint32_t y);
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/reference/renderer-inl.hpp>

@@ -110,4 +110,4 @@ double smallest_slice_radius(double near, double far, double tangent) noexcept {
     return radius(0.5 * (a + b));
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -79,4 +79,4 @@ auto zonal_prefiltered(const Zonal& f, double y, double alpha, double step) {
     return sum / (integrate(weight, 0, touch, step) + integrate(weight, touch, end, step));
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -41,4 +41,4 @@ template <std::floating_point T = double>
     return linear_from_srgb(static_cast<T>(code) / T(255));
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -108,6 +108,7 @@ namespace detail {
 
 }  // namespace detail
 
+/// The placement of an instance.
 Placement placement(const glm::dmat4& world_from_object) noexcept {
     const glm::dmat3 m(world_from_object);
     const bool mirrored = glm::determinant(m) < 0;
@@ -121,6 +122,7 @@ Placement placement(const glm::dmat4& world_from_object) noexcept {
     return {world_from_object, glm::dmat3(columns[0] * scale, columns[1] * scale, columns[2] * scale), mirrored};
 }
 
+/// The attributes of one vertex, placed in the world.
 Attributes vertex_attributes(const Mesh& mesh, const Placement& placed, std::uint32_t vertex) noexcept {
     Attributes out;
     out.position = glm::dvec3(placed.world_from_object * glm::dvec4(mesh.positions[vertex], 1.0));
@@ -136,6 +138,7 @@ Attributes vertex_attributes(const Mesh& mesh, const Placement& placed, std::uin
     return out;
 }
 
+/// The attributes of a point of a triangle.
 Attributes interpolated(const Attributes (&corners)[3], const glm::dvec3& weights) noexcept {
     const Attributes &a = corners[0], &b = corners[1], &c = corners[2];
     return {mixed(a.position, b.position, c.position, weights),
@@ -186,4 +189,4 @@ Surface<double> surface_at(const TexturedMaterial& material, const Attributes& a
     return s;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -146,4 +146,4 @@ glm::dvec4 sample(const SampledTexture& texture, glm::dvec2 uv, double lambda) n
     return fine * (1 - share) + sample_level(texture, static_cast<std::size_t>(level) + 1, uv, s.min) * share;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -62,6 +62,7 @@ glm::vec<3, T> sanitized(glm::vec<3, T> color) noexcept {
     return color;
 }
 
+/// x/(1 + x) on each channel.
 template <std::floating_point T>
 glm::vec<3, T> tone_map_reinhard(glm::vec<3, T> color) noexcept {
     return color / (color + glm::vec<3, T>(T(1)));
@@ -108,6 +109,7 @@ glm::vec<3, T> tone_map_aces(glm::vec<3, T> x) noexcept {
     return x * (T(2.51) * x + T(0.03)) / (x * (T(2.43) * x + T(0.59)) + T(0.14));
 }
 
+/// AgX, to linear colour.
 template <std::floating_point T>
 glm::vec<3, T> tone_map_agx(glm::vec<3, T> color) noexcept {
     using Vector = glm::vec<3, T>;
@@ -154,4 +156,4 @@ glm::vec<3, T> tone_map(ToneMap operation, T ev, glm::vec<3, T> color) noexcept 
     return mapped;
 }
 
-}  // namespace pellucid::reference
+}  // namespace pellucid::inline v0_1::reference

@@ -82,4 +82,4 @@ private:
     std::vector<measure::GpuSpan> earlier_, newest_, sums_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -12,6 +12,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// An environment's light on a device: the sky's table or a prefiltered cube map, and the table of albedos.
 template <rhi::Backend B>
 class GpuEnvironment {
 public:
@@ -121,4 +122,4 @@ void GpuEnvironment<B>::bind(rhi::GroupDesc& group, rhi::Uses& uses) const {
     add(PELLUCID_BIND_SKY, sky_, texels_);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

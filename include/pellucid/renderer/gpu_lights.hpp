@@ -3,6 +3,7 @@
 /// \file
 /// The lights of a scene on the GPU: records, bounds, and room for the lists of which light reaches what.
 #include <pellucid/passes/draw_list.hpp>
+#include <pellucid/renderer/light_changes.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/scene_convert.hpp>
 #include <algorithm>
@@ -11,13 +12,18 @@
 
 namespace pellucid::inline v0_1 {
 
-/// Owns what lights take.  Records and bounds are in view space: they are written again where the camera moved.
+/// Owns what lights take.  Records and bounds are in view space: they are written again where the camera or a light
+/// moved.
 template <rhi::Backend B>
 class GpuLights {
 public:
     /// Errors: `unsupported` where the lists would exceed the device's largest storage buffer; those of creation.
     [[nodiscard]] static Result<GpuLights> create(typename B::Device& device, const Scene& scene,
                                                   const RenderSettings& settings, const SceneNeeds& needs);
+    /// That `lights` can take the place of the scene's.  Errors: `invalid_argument`.
+    [[nodiscard]] Result<void> check(std::span<const Light> lights, bool maps) const;
+    /// Puts them there, from the next update on.  Precondition: check.
+    void set(std::span<const Light> lights);
     /// Precondition: no pass is open.
     void update(typename B::Commands& cmd, const Camera& camera, const glm::dmat4& view_from_world);
     /// Fills in what shaders want to know about lights.
@@ -52,6 +58,7 @@ private:
     [[nodiscard]] std::uint64_t list_bytes() const noexcept { return std::max<std::uint64_t>(16, grid_.bytes()); }
 
     std::vector<Light> sources_;
+    std::vector<std::uint32_t> stored_;  ///< where each light of the scene is in sources_
     std::vector<gpu::LightRecord> record_data_;
     std::vector<gpu::vec4> bound_data_;  ///< of lights with a place
     rhi::Unique<typename B::Device, rhi::Buffer> records_, block_, bounds_, lists_;
@@ -70,21 +77,24 @@ template <rhi::Backend B>
 Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scene& scene,
                                           const RenderSettings& settings, const SceneNeeds& needs) {
     GpuLights out;
-    out.sources_ = scene.lights;
-    if (gets_default_sun(scene, settings)) {
-        out.sources_.push_back(default_sun());
-        out.ambient_ = settings.environment.kind == EnvironmentKind::none;
-    }
     const auto kind = [](const Light& l) { return l.kind == LightKind::directional ? 0 : reaches_an_end(l) ? 2 : 1; };
-    std::stable_sort(out.sources_.begin(), out.sources_.end(),
-                     [&](const Light& a, const Light& b) { return kind(a) < kind(b); });
-    const auto up_to = [&](int last) {
-        return static_cast<std::uint32_t>(
-            std::count_if(out.sources_.begin(), out.sources_.end(), [&](const Light& l) { return kind(l) <= last; }));
-    };
+    out.stored_.resize(scene.lights.size());
+    std::uint32_t ends[3] = {0, 0, 0};
+    for (int k = 0; k < 3; ++k) {
+        for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+            if (kind(scene.lights[i]) != k) continue;
+            out.stored_[i] = static_cast<std::uint32_t>(out.sources_.size());
+            out.sources_.push_back(scene.lights[i]);
+        }
+        if (k == 0 && gets_default_sun(scene, settings)) {
+            out.sources_.push_back(default_sun());
+            out.ambient_ = settings.environment.kind == EnvironmentKind::none;
+        }
+        ends[k] = out.size();
+    }
     out.grid_ = needs.grid;
     out.looped_ = needs.has(PELLUCID_NEED_LIGHT_BLOCK);
-    out.ends_ = {up_to(0), up_to(1), up_to(2), static_cast<gpu::uint>(needs.grid.slice_words())};
+    out.ends_ = {ends[0], ends[1], ends[2], static_cast<gpu::uint>(needs.grid.slice_words())};
     out.record_data_.resize(std::max<std::size_t>(1, out.sources_.size()));
     out.bound_data_.resize(std::max(1u, out.ends_.z - out.ends_.x));
     const std::uint64_t bytes = out.list_bytes();
@@ -109,6 +119,24 @@ Result<GpuLights<B>> GpuLights<B>::create(typename B::Device& device, const Scen
         PELLUCID_OWN(out.bounds_, device, make(out.bound_data_.size() * sizeof(gpu::vec4), "scene.light_bounds"));
     }
     return out;
+}
+
+template <rhi::Backend B>
+Result<void> GpuLights<B>::check(std::span<const Light> lights, bool maps) const {
+    if (lights.size() != stored_.size())
+        return Error{Errc::invalid_argument, std::to_string(lights.size()) + " lights cannot take the place of " +
+                                                 std::to_string(stored_.size()) +
+                                                 ": keep their number, or create a renderer for these lights"};
+    PELLUCID_CHECK(check_lights(lights));
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        PELLUCID_CHECK(check_light_change(sources_[stored_[i]], lights[i], i, maps));
+    return {};
+}
+
+template <rhi::Backend B>
+void GpuLights<B>::set(std::span<const Light> lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) sources_[stored_[i]] = lights[i];
+    written_ = false;
 }
 
 template <rhi::Backend B>
@@ -155,4 +183,4 @@ void GpuLights<B>::describe(gpu::FrameParams& frame) const {
     frame.light_slices = slices_;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -299,6 +299,14 @@ Result<void> GpuScene<B>::draw_shadows(typename B::Commands& cmd, const ShadowMa
 }
 
 template <rhi::Backend B>
+Result<void> GpuScene<B>::set_lights(std::span<const Light> lights) {
+    PELLUCID_CHECK(lights_->check(lights, shadows_.has_value()));
+    lights_->set(lights);
+    if (shadows_) shadows_->set_lights(lights_->sources());
+    return {};
+}
+
+template <rhi::Backend B>
 Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& camera, const RenderSettings& settings) {
     const glm::dmat4 view_from_world = rigid_inverse(camera.world_from_view);
     lights_->update(cmd, camera, view_from_world);
@@ -311,4 +319,4 @@ Result<void> GpuScene<B>::begin_frame(typename B::Commands& cmd, const Camera& c
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

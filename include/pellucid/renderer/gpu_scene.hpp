@@ -29,7 +29,11 @@ public:
     [[nodiscard]] static Result<GpuScene> create(typename B::Device& device, const Scene& scene,
                                                  const RenderSettings& settings);
 
-    /// Writes the frame's uniforms, instance records and (where the camera moved) lights, and sorts translucents.
+    /// Other lights in the place of the scene's, from the next frame on; renderer.hpp has the contract.
+    [[nodiscard]] Result<void> set_lights(std::span<const Light> lights);
+
+    /// Writes the frame's uniforms, instance records and (where the camera or a light moved) lights, and sorts
+    /// translucents.
     /// Precondition: no pass is open.  Errors: those of the rings.
     [[nodiscard]] Result<void> begin_frame(typename B::Commands& cmd, const Camera& camera,
                                            const RenderSettings& settings);
@@ -100,6 +104,6 @@ private:
     std::vector<std::string> warnings_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/gpu_scene-inl.hpp>

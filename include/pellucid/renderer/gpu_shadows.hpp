@@ -19,7 +19,7 @@ struct ShadowCaster {
 };
 
 /// Owns what shadow maps take.  Cascades are fitted to each frame's camera and drawn again where that moved their map;
-/// maps of spots and point lights are drawn once, since a renderer's scene does not change.
+/// maps of spots and point lights are drawn again where their light moved.
 template <rhi::Backend B>
 class GpuShadows {
 public:
@@ -28,6 +28,8 @@ public:
                                                    const RenderSettings& settings, const SceneNeeds& needs);
     /// Once, after create: what casts, and the bounds of everything.
     void place(std::vector<ShadowCaster> casters, const WorldBox& all);
+    /// Other lights in the place of those of `create`, with as many maps each, from the next record on.
+    void set_lights(std::span<const Light> lights);
     /// Writes the records of this camera and draws the maps that changed.  `view(camera, size, instances)` gives a
     /// `Result<SceneBinding>` of another view of those instances, records in their order.  Precondition: no pass is
     /// open.
@@ -57,7 +59,8 @@ private:
         std::uint32_t count = 0, first_layer = 0, rest = 0;
         ShadowCameras cameras, drawn;  ///< wanted now, and what the layers hold
     };
-    void fit(const Camera& camera, Extent2D picture);
+    void fit_placed();
+    void fit_cascades(const Camera& camera, Extent2D picture);
     void write(typename B::Commands& cmd, const Camera& camera);
     template <class View>
     Result<void> draw(typename B::Commands& cmd, const ShadowMapPass<B>& pass, const Camera& map, std::uint32_t layer,
@@ -143,13 +146,24 @@ void GpuShadows<B>::place(std::vector<ShadowCaster> casters, const WorldBox& all
     instances_.reserve(casters_.size());
     opaque_.reserve(casters_.size());
     masked_.reserve(casters_.size());
+    fit_placed();
+}
+
+template <rhi::Backend B>
+void GpuShadows<B>::set_lights(std::span<const Light> lights) {
+    for (std::size_t i = 0; i < lights.size(); ++i) lights_[i].light = lights[i];
+    fit_placed();
+}
+
+template <rhi::Backend B>
+void GpuShadows<B>::fit_placed() {
     for (LightMaps& l : lights_)
         if (l.count != 0 && l.light.kind != LightKind::directional)
             l.cameras = placed_maps(l.light, l.count, scene_, boxes_, size_);
 }
 
 template <rhi::Backend B>
-void GpuShadows<B>::fit(const Camera& camera, Extent2D picture) {
+void GpuShadows<B>::fit_cascades(const Camera& camera, Extent2D picture) {
     for (LightMaps& l : lights_)
         if (l.count != 0 && l.light.kind == LightKind::directional)
             l.cameras = cascades(l.light, camera, picture, scene_, size_);
@@ -203,10 +217,11 @@ template <class View>
 Result<void> GpuShadows<B>::record(typename B::Commands& cmd, const ShadowMapPass<B>& pass, const Camera& camera,
                                    Extent2D picture, View&& view) {
     const auto same = [](const Camera& a, const Camera& b) {
-        return a.world_from_view == b.world_from_view && a.half_height == b.half_height && a.far == b.far;
+        return a.world_from_view == b.world_from_view && a.half_height == b.half_height && a.far == b.far &&
+               a.vertical_fov == b.vertical_fov && a.near == b.near;
     };
     drawn_ = 0;
-    fit(camera, picture);
+    fit_cascades(camera, picture);
     for (LightMaps& l : lights_) {
         for (std::uint32_t k = 0; k < l.cameras.size(); ++k) {
             if (k < l.drawn.size() && same(l.drawn[k], l.cameras[k])) continue;
@@ -221,4 +236,4 @@ Result<void> GpuShadows<B>::record(typename B::Commands& cmd, const ShadowMapPas
     return {};
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -12,6 +12,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What is built for a scene with some settings, and the reasons.
 struct SceneNeeds {
     std::uint32_t mask = 0;                              ///< PELLUCID_NEED_* of gpu/scene.h
     std::uint32_t lights = 0;                            ///< that shine, the default sun among them
@@ -232,4 +233,4 @@ inline void assign_shadows(SceneNeeds& needs, const Scene& scene, const RenderSe
     return needs;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -37,4 +37,4 @@ private:
     const RenderSettings& settings_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -251,6 +251,14 @@ void Renderer<B>::declare_tonemap() {
 }
 
 template <rhi::Backend B>
+Result<void> Renderer<B>::set_lights(std::span<const Light> lights) {
+    PELLUCID_CHECK(scene_->set_lights(lights));
+    if (light_volumes_pass_)
+        light_volumes_pass_->set_lights(scene_->lights().sources(), scene_->lights().first_ranged());
+    return {};
+}
+
+template <rhi::Backend B>
 Result<rhi::Ticket> Renderer<B>::render(const Camera& camera) {
     camera_ = camera;
     RenderFrame<B> frame(*device_, *scene_, *clock_, camera, settings_);
@@ -349,4 +357,4 @@ RenderStats Renderer<B>::stats() const {
     return stats;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

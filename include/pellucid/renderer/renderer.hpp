@@ -58,6 +58,14 @@ public:
     /// (settings.transparency: abuffer waits once).  Errors: device loss, memory, a memory budget that is too small.
     [[nodiscard]] Result<rhi::Ticket> render(const Camera& camera);
 
+    /// Lights that take the place of the scene's from the next frame on; nothing is built again, and the picture is
+    /// that of a new renderer, bit for bit.  As many of them as the scene has, in its order, each of the same kind,
+    /// with a range where that one has one and, where shadow maps are drawn, with as many maps (renderer/needs.hpp:
+    /// spots wider than widest_shadow_spot take six).  Error: `invalid_argument`, and nothing changes.
+    [[nodiscard]] Result<void> set_lights(std::span<const Light> lights);
+    /// RenderSettings::exposure_ev from the next frame on.
+    void set_exposure(float ev) noexcept { settings_.exposure_ev = ev; }
+
     /// `[h, w, 4]` linear radiance before the tone curve, of the last frame; waits for it.
     [[nodiscard]] Result<ImageF> read_hdr() { return read_float(graph_[hdr_]); }
     /// `[h, w, 4]` display-referred sRGB codes of the last frame; waits for it.

@@ -34,9 +34,11 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
                     indices.begin() + static_cast<std::ptrdiff_t>(count + t));
 }
 
+/// Rounded to single precision.
 [[nodiscard]] inline gpu::vec3 to_gpu(const glm::dvec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
+/// The same value in the shared struct's type.
 [[nodiscard]] inline gpu::vec3 to_gpu(const glm::vec3& v) {
     return {v.x, v.y, v.z};
 }
@@ -47,6 +49,7 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
     return {code(c.x) | code(c.y) << 16u, code(c.z) | code(c.w) << 16u};
 }
 
+/// Where each mesh lies in the scene's one vertex and one index buffer.
 [[nodiscard]] inline MeshPlacement place_meshes(const Scene& scene) {
     MeshPlacement p;
     for (const Mesh& mesh : scene.meshes) {
@@ -58,6 +61,7 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
     return p;
 }
 
+/// The vertices of all meshes, one after the other.
 [[nodiscard]] inline std::vector<gpu::Vertex> gpu_vertices(const Scene& scene) {
     std::vector<gpu::Vertex> out;
     for (const Mesh& mesh : scene.meshes) {
@@ -90,6 +94,7 @@ inline void append_reversed_triangles(std::vector<std::uint32_t>& indices) {
     return use;
 }
 
+/// A material with its textures' places in the arrays.
 [[nodiscard]] inline gpu::MaterialRecord gpu_material(const Material& m, const TexturePlan& plan) {
     gpu::MaterialRecord r{};
     r.base_color = {m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w};
@@ -168,4 +173,4 @@ inline void place(gpu::DrawRecord& r, const glm::dmat4& view_from_object) {
     r.flags = (r.flags & ~PELLUCID_DRAW_MIRRORED) | (determinant < 0 ? PELLUCID_DRAW_MIRRORED : 0u);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -14,6 +14,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How translucent surfaces are drawn; `all_transparencies` says what each promises.
 enum class Transparency : std::uint8_t {
     none,              ///< translucent surfaces are left out
     sorted,            ///< whole meshes drawn back to front: exact only where their depth ranges do not overlap
@@ -88,9 +89,11 @@ static_assert(
     }(),
     "all_transparencies is in the order of the enumerators");
 
+/// What a method promises and heeds.
 [[nodiscard]] constexpr const TransparencyTraits& traits(Transparency t) noexcept {
     return all_transparencies[static_cast<std::size_t>(t)];
 }
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(Transparency t) noexcept {
     return traits(t).name;
 }
@@ -103,16 +106,19 @@ static_assert(
     return t != Transparency::none && t != Transparency::sorted;
 }
 
+/// Whether lights cast shadows.
 enum class Shadows : std::uint8_t {
     none,  ///< every light reaches every surface that faces it
     map    ///< opaque and masked surfaces cast, by shadow maps (passes/shadow_map.hpp)
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(Shadows s) noexcept {
     return s == Shadows::none ? "none" : "map";
 }
 /// [byte] Most that the shadow maps of a scene may take.
 inline constexpr std::uint64_t max_shadow_bytes = std::uint64_t{1} << 31;
 
+/// What a renderer is made with; to change it a renderer is made anew.
 struct RenderSettings {
     Extent2D size{1280, 720};  ///< [texel] both in 1 … the device's limit
     Transparency transparency = Transparency::abuffer;
@@ -138,4 +144,4 @@ struct RenderSettings {
     bool every_need = false;  ///< build everything whether the scene needs it or not (to prove that it changes nothing)
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -53,6 +53,7 @@ struct ShadowScene {
     WorldBox casters;  ///< of opaque and masked ones
 };
 
+/// A light's views, the finest cascade first, faces in the order of gpu/shadow_map.h.
 using ShadowCameras = SmallVector<Camera, PELLUCID_SHADOW_FACES>;
 
 /// Distances along the view at which what is seen is cut into slices, for cascades.  `eye_to_middle` is the distance of
@@ -60,6 +61,7 @@ using ShadowCameras = SmallVector<Camera, PELLUCID_SHADOW_FACES>;
 struct ViewSlices {
     double ends[PELLUCID_SHADOW_CASCADES + 1] = {};
 };
+/// The slices for cascades of a view of the scene's sphere.
 [[nodiscard]] inline ViewSlices view_slices(const Camera& camera, double eye_to_middle, double radius) {
     // Steps of half an octave: between them nothing changes while the eye moves.
     const double far = std::exp2(std::ceil(2 * std::log2(std::max(eye_to_middle + radius, 1e-6))) / 2);
@@ -77,6 +79,7 @@ struct ViewSlices {
     return slices;
 }
 
+/// A ball in the world [m].
 struct Sphere {
     glm::dvec3 center{0, 0, 0};
     double radius = 0;
@@ -198,4 +201,4 @@ namespace detail {
     return left < 8 && right < 8 && below < 8 && above < 8 && behind < 8;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

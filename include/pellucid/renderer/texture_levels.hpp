@@ -54,4 +54,4 @@ namespace pellucid::inline v0_1 {
     return levels;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

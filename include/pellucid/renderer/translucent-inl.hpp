@@ -174,4 +174,4 @@ void Translucent<B>::add_resources(std::vector<TextureReport>& out) const {
     if (compositor()) compositor()->each_resource(add);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

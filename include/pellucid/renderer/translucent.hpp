@@ -46,6 +46,7 @@ struct LightingChanges {
 template <rhi::Backend B>
 class Translucent {
 public:
+    /// The frame's targets that methods draw into and test against.
     struct Targets {
         GraphTexture hdr, depth;  ///< rgba16_float, read and written; d32_float, read
     };
@@ -135,7 +136,7 @@ private:
     std::optional<InterleavedPass<B>> interleaved_;
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/translucent-inl.hpp>
 #include <pellucid/renderer/translucent_interleaved-inl.hpp>

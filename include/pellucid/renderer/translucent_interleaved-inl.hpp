@@ -102,4 +102,4 @@ void Translucent<B>::declare_interleaved_merge() {
         });
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

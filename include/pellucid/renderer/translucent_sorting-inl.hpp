@@ -177,4 +177,4 @@ void Translucent<B>::declare_abuffer() {
         });
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -157,8 +157,10 @@ concept Backend = DeviceOf<typename B::Device, typename B::Commands> && CommandL
     { B::list() } -> std::same_as<std::vector<DeviceInfo>>;
 };
 
+/// The device type of a backend.
 template <Backend B>
 using DeviceFor = typename B::Device;
+/// The command list type of a backend.
 template <Backend B>
 using CommandsFor = typename B::Commands;
 
@@ -175,4 +177,4 @@ template <class T>
     return std::as_bytes(values);
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

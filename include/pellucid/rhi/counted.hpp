@@ -4,7 +4,7 @@
 /// `Counted<B>`: a backend that wraps another one and counts the calls of each frame by kind, and the bytes that the
 /// CPU sends.  Handles are the wrapped backend's own.
 #include <memory>
-#include <pellucid/rhi/backend.hpp>
+#include <pellucid/rhi/surface.hpp>
 #include <utility>
 
 namespace pellucid::inline v0_1 {
@@ -165,13 +165,30 @@ private:
     Counts last_frame_;
 };
 
+/// Models `SurfaceOf<Surface<B>, Device<B>>` where B presents; counts nothing: presenting is no part of a frame.
+template <rhi::Backend B>
+class Surface {
+public:
+    static Result<std::unique_ptr<Surface>> create(Device<B>& device, const rhi::SurfaceDesc& desc) {
+        PELLUCID_TRY(auto inner, B::Surface::create(device.backend(), desc));
+        return std::unique_ptr<Surface>(new Surface(std::move(inner)));
+    }
+    Result<bool> present(rhi::Texture texture, Extent2D size) { return inner_->present(texture, size); }
+
+private:
+    explicit Surface(std::unique_ptr<typename B::Surface> inner) : inner_(std::move(inner)) {}
+    std::unique_ptr<typename B::Surface> inner_;
+};
+
 }  // namespace counted
 
+/// A backend that counts the calls that reach the one it wraps.
 template <rhi::Backend B>
 struct Counted {
     static constexpr const char* name = B::name;
     using Device = counted::Device<B>;
     using Commands = counted::Commands<B>;
+    using Surface = counted::Surface<B>;
 
     static Result<std::unique_ptr<Device>> create(const rhi::DeviceDesc& desc) {
         PELLUCID_TRY(auto inner, B::create(desc));
@@ -180,4 +197,4 @@ struct Counted {
     static std::vector<rhi::DeviceInfo> list() { return B::list(); }
 };
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -20,8 +20,11 @@
 
 namespace pellucid::inline v0_1::rhi {
 
+/// A range of memory.
 using Buffer = Handle<struct BufferTag>;
+/// Texels with levels and layers.
 using Texture = Handle<struct TextureTag>;
+/// How texels are filtered.
 using Sampler = Handle<struct SamplerTag>;
 using Pipeline = Handle<struct PipelineTag>;  ///< graphics or compute
 using Group = Handle<struct GroupTag>;        ///< an immutable set of bound resources
@@ -42,6 +45,7 @@ struct NativeDisplay {
     void* connection = nullptr;  ///< X11: the `Display*`
 };
 
+/// Which device is opened, and how.
 struct DeviceDesc {
     std::string device = {};             ///< index ("0") or a part of the name; empty: the best one
     bool validation = false;             ///< validation layer with synchronisation validation; GL debug output
@@ -49,7 +53,7 @@ struct DeviceDesc {
     bool gl_spirv = false;               ///< OpenGL: load SPIR-V (GL_ARB_gl_spirv) instead of GLSL text
     std::string pipeline_cache = {};     ///< file of the driver's compiled pipelines; empty: none is kept
     bool count_api_calls = false;        ///< put a counting thunk before every API function: `Device::api_calls()`
-    NativeDisplay display = {};          ///< only devices that can present there are used; none: no windows
+    NativeDisplay display = {};          ///< where windows are, for rhi/surface.hpp; none: no windows
     LogSink log = {};
 };
 
@@ -75,6 +79,7 @@ inline constexpr std::uint32_t llvmpipe_loop_turns = 65535;
 
 // ---------------------------------------------------------------------------------------------------- memory
 
+/// What a buffer may be used as: flags.
 enum class BufferUsage : std::uint8_t {
     none = 0,
     uniform = 1,
@@ -91,6 +96,7 @@ enum class Memory : std::uint8_t {
     readback  ///< mapped for reading by the CPU for the buffer's whole life
 };
 
+/// A buffer to be made.
 struct BufferDesc {
     std::uint64_t size = 0;  ///< [byte] > 0
     BufferUsage usage = BufferUsage::storage;
@@ -99,6 +105,7 @@ struct BufferDesc {
     const char* debug_name = "buffer";
 };
 
+/// What a texture may be used as: flags.
 enum class TextureUsage : std::uint8_t {
     none = 0,
     sampled = 1,
@@ -107,8 +114,10 @@ enum class TextureUsage : std::uint8_t {
     copy_source = 8,
     copy_destination = 16
 };
+/// One picture, several of a size, or the six faces of a cube.
 enum class TextureKind : std::uint8_t { flat, array, cube };
 
+/// A texture to be made.
 struct TextureDesc {
     Extent2D size = {};        ///< [texel] both > 0
     std::uint32_t layers = 1;  ///< array layers; 6 for a cube
@@ -130,8 +139,11 @@ struct TextureDesc {
     return bytes;
 }
 
+/// Between texels, or the nearest.
 enum class Filter : std::uint8_t { nearest, linear };
+/// What is beyond the border.
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
+/// How texels are filtered: trilinear and repeating by default.
 struct SamplerDesc {
     Filter min = Filter::linear;
     Filter mag = Filter::linear;
@@ -151,8 +163,10 @@ struct SamplerDesc {
 /// Three groups by frequency.  Group 0 belongs to the device (see `Commands::bind_frame`); 1 and 2 are made by passes.
 enum class GroupSlot : std::uint8_t { frame = 0, pass = 1, scene = 2 };
 
+/// What a shader finds at a binding.
 enum class BindingKind : std::uint8_t { uniform_buffer, storage_buffer, sampled_texture, storage_texture };
 
+/// One binding of a group's shape.
 struct BindingLayout {
     std::uint32_t binding = 0;  ///< number in the shader; unique in the whole program (gpu/bindings.h)
     BindingKind kind = BindingKind::storage_buffer;
@@ -164,6 +178,7 @@ struct GroupLayout {
     friend constexpr bool operator==(const GroupLayout&, const GroupLayout&) = default;
 };
 
+/// What is bound to a number.
 struct Binding {
     std::uint32_t binding = 0;
     Buffer buffer = {};     ///< for buffers: the whole of it
@@ -171,6 +186,7 @@ struct Binding {
     Sampler sampler = {};   ///< for sampled textures: combined with the texture
     std::uint32_t mip = 0;  ///< storage textures: the level that is bound (all its layers)
 };
+/// Resources that are bound together, and the shape that pipelines expect.
 struct GroupDesc {
     GroupSlot slot = GroupSlot::pass;
     GroupLayout layout = {};
@@ -180,8 +196,11 @@ struct GroupDesc {
 
 // ---------------------------------------------------------------------------------------------------- pipelines
 
+/// When a test passes: new value against old.
 enum class Compare : std::uint8_t { never, less, equal, less_equal, greater, not_equal, greater_equal, always };
+/// Which faces are left out.
 enum class Cull : std::uint8_t { none, back, front };
+/// What colours are multiplied by before they are added.
 enum class BlendFactor : std::uint8_t {
     zero,
     one,
@@ -193,8 +212,10 @@ enum class BlendFactor : std::uint8_t {
     one_minus_src_color,
     dst_color
 };
+/// How the two products are put together.
 enum class BlendOp : std::uint8_t { add, min, max, reverse_subtract };
 
+/// How a colour target blends; off by default.
 struct Blend {
     bool enabled = false;
     BlendFactor src_color = BlendFactor::one;
@@ -209,11 +230,13 @@ inline constexpr Blend blend_premultiplied = {true,         BlendFactor::one, Bl
                                               BlendOp::add, BlendFactor::one, BlendFactor::one_minus_src_alpha,
                                               BlendOp::add};
 
+/// Format and blending of a colour attachment, as a pipeline is built for it.
 struct ColorTarget {
     Format format = Format::rgba8_unorm;
     Blend blend = {};
     std::uint8_t write_mask = 0xF;  ///< bit 0 red … bit 3 alpha
 };
+/// The stencil test of front or back faces.
 struct StencilFace {
     Compare compare = Compare::always;
     enum class Op : std::uint8_t {
@@ -228,6 +251,7 @@ struct StencilFace {
     };
     Op fail = Op::keep, depth_fail = Op::keep, pass = Op::keep;
 };
+/// Depth and stencil tests, as a pipeline is built for them.
 struct DepthStencil {
     Format format = Format::undefined;  ///< undefined: no depth attachment
     bool test = false;
@@ -237,8 +261,10 @@ struct DepthStencil {
     StencilFace front = {}, back = {};
     std::uint8_t stencil_read_mask = 0xFF, stencil_write_mask = 0xFF, stencil_reference = 0;
 };
+/// What vertices make.
 enum class Topology : std::uint8_t { triangles, triangle_strip, lines, points };
 
+/// Shaders and all state that drawing needs.
 struct GraphicsPipelineDesc {
     const Shader* vertex = nullptr;
     const Shader* fragment = nullptr;  ///< null: depth only
@@ -253,6 +279,7 @@ struct GraphicsPipelineDesc {
     Topology topology = Topology::triangles;
     const char* debug_name = "graphics pipeline";
 };
+/// A compute shader, its constants and its groups.
 struct ComputePipelineDesc {
     const Shader* compute = nullptr;
     std::span<const SpecConstant> constants = {};
@@ -282,17 +309,23 @@ struct ResourceUse {
     Texture texture = {};
     Access access = Access::sampled;
 };
+/// What a pass reads and writes, beside its attachments.
 using Uses = SmallVector<ResourceUse, max_resources>;
+/// A buffer and what a pass does with it.
 [[nodiscard]] constexpr ResourceUse use(Buffer buffer, Access access) {
     return {.buffer = buffer, .access = access};
 }
+/// A texture and what a pass does with it.
 [[nodiscard]] constexpr ResourceUse use(Texture texture, Access access) {
     return {.texture = texture, .access = access};
 }
 
+/// What an attachment holds when a pass begins.
 enum class Load : std::uint8_t { load, clear, discard };
+/// Whether it is kept when the pass ends.
 enum class Store : std::uint8_t { store, discard };
 
+/// A colour texture that a render pass draws into.
 struct ColorAttachment {
     Texture texture = {};
     std::uint32_t mip = 0, layer = 0;
@@ -301,6 +334,7 @@ struct ColorAttachment {
     float clear[4] = {0, 0, 0, 0};               ///< linear, also for sRGB formats
     std::uint32_t clear_uint[4] = {0, 0, 0, 0};  ///< used instead for *_uint formats
 };
+/// A depth texture that a render pass tests against and may write.
 struct DepthAttachment {
     Texture texture = {};  ///< null: no depth attachment
     std::uint32_t mip = 0, layer = 0;
@@ -310,6 +344,7 @@ struct DepthAttachment {
     std::uint32_t clear_stencil = 0;
     bool read_only = false;  ///< tested, never written; the pass may then also declare it `sampled`
 };
+/// Attachments, declared uses, size and name of a render pass.
 struct RenderPassDesc {
     SmallVector<ColorAttachment, max_color_attachments> colors = {};
     DepthAttachment depth = {};
@@ -317,21 +352,25 @@ struct RenderPassDesc {
     Extent2D size = {};  ///< [texel] render area, viewport and scissor, from the top left; both > 0
     const char* name = "render pass";
 };
+/// Declared uses and name of a compute pass.
 struct ComputePassDesc {
     Uses uses = {};
     const char* name = "compute pass";
 };
+/// Declared uses and name of a copy pass.
 struct CopyPassDesc {
     Uses uses = {};
     const char* name = "copy pass";
 };
 
+/// A draw without indices.
 struct Draw {
     std::uint32_t vertex_count = 0;
     std::uint32_t instance_count = 1;
     std::uint32_t first_vertex = 0;
     std::uint32_t first_instance = 0;  ///< base instance: index of the draw's record
 };
+/// A draw of indices; indirect draws have the same members.
 struct DrawIndexed {
     std::uint32_t index_count = 0;
     std::uint32_t instance_count = 1;
@@ -339,10 +378,12 @@ struct DrawIndexed {
     std::int32_t vertex_offset = 0;
     std::uint32_t first_instance = 0;  ///< base instance: index of the draw's record
 };
+/// A rectangle of texels, from the top left.
 struct Rect {
     std::uint32_t x = 0, y = 0, width = 0, height = 0;  ///< [texel], from the top left
 };
 
+/// A range that is copied from buffer to buffer.
 struct BufferCopy {
     std::uint64_t source_offset = 0, destination_offset = 0, size = 0;  ///< [byte]
 };
@@ -357,13 +398,16 @@ struct UniformSlice {
     std::uint32_t block = 0;   ///< which block of the ring
     std::uint32_t offset = 0;  ///< [byte]
 };
+/// Records of this frame in the device's ring.
 struct RecordSlice {
     std::uint32_t block = 0;
     std::uint32_t first = 0;          ///< index of record 0: add it to `first_instance`
     std::span<std::byte> bytes = {};  ///< write-combined memory: write it once, in order, and never read it
 };
 
+/// What queries measure.
 enum class QueryKind : std::uint8_t { timestamp, occlusion };
+/// A pool of queries of one kind.
 struct QueriesDesc {
     QueryKind kind = QueryKind::timestamp;
     std::uint32_t count = 0;
@@ -373,7 +417,7 @@ struct QueriesDesc {
 /// A point in the device's work; `Device::wait` and `Device::done` take it.  0 is always done.
 enum class Ticket : std::uint64_t { none = 0 };
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi
 
 template <>
 inline constexpr bool pellucid::enable_flags<pellucid::rhi::BufferUsage> = true;

@@ -7,6 +7,7 @@
 
 namespace pellucid::inline v0_1::rhi {
 
+/// Texel formats that both APIs have.
 enum class Format : std::uint8_t {
     undefined,
     r8_unorm,
@@ -29,6 +30,7 @@ enum class Format : std::uint8_t {
 /// What a sampler or an attachment sees of a format.
 enum class NumericKind : std::uint8_t { none, unorm, srgb, uint, floating, depth };
 
+/// What a format is made of.
 struct FormatInfo {
     const char* name = "";
     std::uint32_t bytes = 0;     ///< a texel, depth aspect only for depth-stencil
@@ -62,8 +64,9 @@ inline constexpr FormatInfo format_table[] = {
 static_assert(sizeof format_table / sizeof format_table[0] == static_cast<std::size_t>(Format::count));
 }  // namespace detail
 
+/// What `format` is made of.
 [[nodiscard]] constexpr const FormatInfo& info(Format format) noexcept {
     return detail::format_table[static_cast<std::size_t>(format)];
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

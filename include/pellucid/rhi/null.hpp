@@ -6,7 +6,7 @@
 /// for mapped buffers and frame data, and can be told to fail.
 #include <algorithm>
 #include <memory>
-#include <pellucid/rhi/backend.hpp>
+#include <pellucid/rhi/surface.hpp>
 #include <vector>
 
 namespace pellucid::inline v0_1 {
@@ -220,6 +220,7 @@ public:
     void lose() { state_.lost = true; }
 
 private:
+    friend class Surface;
     struct Nothing {};
     struct Memory {
         std::uint64_t size = 0;
@@ -243,6 +244,25 @@ private:
     std::uint64_t frame_ = 0;
 };
 
+/// Models `SurfaceOf<Surface, Device>`: a window that shows nothing and remembers what it was given.
+class Surface {
+public:
+    static Result<std::unique_ptr<Surface>> create(Device& device, const rhi::SurfaceDesc& desc) {
+        PELLUCID_CHECK(device.state_.create("make_surface", desc.debug_name));
+        return std::unique_ptr<Surface>(new Surface(device));
+    }
+    Result<bool> present(rhi::Texture texture, Extent2D size) {
+        if (device_->state_.lost) return Error{Errc::device_lost, "null: the device is lost"};
+        if (size.width == 0 || size.height == 0) return false;
+        device_->state_.note("present", texture.bits);
+        return true;
+    }
+
+private:
+    explicit Surface(Device& device) : device_(&device) {}
+    Device* device_;
+};
+
 }  // namespace null
 
 /// The backend without a GPU.
@@ -250,10 +270,11 @@ struct Null {
     static constexpr const char* name = "null";
     using Device = null::Device;
     using Commands = null::Commands;
+    using Surface = null::Surface;
     static Result<std::unique_ptr<Device>> create(const rhi::DeviceDesc&) { return std::make_unique<Device>(); }
     static std::vector<rhi::DeviceInfo> list() { return {Device{}.info()}; }
 };
 
-static_assert(rhi::Backend<Null>);
+static_assert(rhi::PresentingBackend<Null>);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -81,4 +81,4 @@ template <Backend B, class T>
     return out;
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

@@ -9,6 +9,7 @@
 
 namespace pellucid::inline v0_1::rhi {
 
+/// Where a shader runs.
 enum class ShaderStage : std::uint8_t { vertex, fragment, compute };
 
 /// One entry point ("main") of one stage.  All spans point at static data.
@@ -27,4 +28,4 @@ struct SpecConstant {
     friend constexpr bool operator==(SpecConstant, SpecConstant) = default;
 };
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

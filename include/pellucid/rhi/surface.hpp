@@ -17,16 +17,30 @@
 
 namespace pellucid::inline v0_1::rhi {
 
+/// A window to show textures in.
 struct SurfaceDesc {
     std::uintptr_t window = 0;  ///< X11: the `Window`
     bool vsync = true;          ///< wait for the display's refresh; false: show at once, pictures may tear
     const char* debug_name = "window";
 };
 
-/// `create(device, desc)`: `invalid_argument` for a device without `DeviceDesc::display`; `unsupported` where the window
-/// cannot show what the device draws.
+/// What textures can be shown: codes that a display takes as they are, or linear values that become codes as they are.
+/// sRGB formats cannot: one API would decode them on the way, the other would not.
+[[nodiscard]] inline Result<void> check_presentable(Format format, const char* window) {
+    if (format == Format::rgba8_unorm || format == Format::rgba16_float || format == Format::rgba32_float) return {};
+    return Error{Errc::invalid_argument, std::string("present: '") + window + "' shows textures of rgba8_unorm, " +
+                                             "rgba16_float or rgba32_float; this one is of " + info(format).name};
+}
+/// The error of `create` for a device that was made without `DeviceDesc::display`.
+[[nodiscard]] inline Error no_display(const char* window) {
+    return {Errc::invalid_argument, std::string("the surface '") + window +
+                                        "' needs a device for windows: set DeviceDesc::display when making the device"};
+}
+
+/// `create(device, desc)`: `invalid_argument` for a device without `DeviceDesc::display`; `unsupported` where the
+/// window cannot show what the device draws.
 ///
-/// `present(texture, size)`: shows level 0 of a texture of 8-bit codes or of floats in [0,1] (usage copy_source) in a
+/// `present(texture, size)`: shows level 0 of a texture (check_presentable; usage copy_source; values in [0,1]) in a
 /// window of `size` pixels, stretched where the sizes differ, row 0 at the top, after everything that was submitted.
 /// Call it between `submit` and `begin_frame`.  `size` is that of the window's framebuffer now: where it changed,
 /// what is behind the window is made again.  Gives whether anything was shown: not where the window has no pixels
@@ -42,4 +56,4 @@ concept SurfaceOf = requires(S s, D& device, const SurfaceDesc& desc, Texture te
 template <class B>
 concept PresentingBackend = Backend<B> && SurfaceOf<typename B::Surface, typename B::Device>;
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

@@ -36,7 +36,7 @@ private:
     Handle handle_{};
 };
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi
 
 /// `PELLUCID_OWN(member, device, device.make_buffer({...}));`: moves the created object into a `Unique`, or returns the
 /// error from the enclosing function.

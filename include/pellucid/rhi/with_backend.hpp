@@ -53,4 +53,4 @@ auto with_backend(BackendList<First, Rest...>, std::string_view choice, F&& f, L
     return out;
 }
 
-}  // namespace pellucid::rhi
+}  // namespace pellucid::inline v0_1::rhi

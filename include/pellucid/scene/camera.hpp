@@ -11,6 +11,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// How a view shrinks with distance, or not.
 enum class Projection { perspective, orthographic };
 
 /// A glTF camera placed in the world.  Depth is reversed; a perspective far plane is infinitely far away.

@@ -66,4 +66,4 @@ PELLUCID_INLINE Scene make_demo_scene() {
     return std::move(builder.scene);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

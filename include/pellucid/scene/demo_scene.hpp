@@ -12,7 +12,7 @@ namespace pellucid::inline v0_1 {
 /// other and the spheres behind them on the screen; one perspective camera for pictures of 16:9.
 [[nodiscard]] Scene make_demo_scene();
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/demo_scene-inl.hpp>

@@ -10,16 +10,19 @@
 
 namespace pellucid::inline v0_1 {
 
+/// Where light from all around comes from.
 enum class EnvironmentKind : std::uint8_t {
     none,
     sky,     ///< procedural: scene/sky.hpp
     picture  ///< equirectangular, `[h, 2h, 3]` linear radiance, y up; which way: reference/environment.hpp
 };
+/// As programs spell it.
 [[nodiscard]] constexpr const char* name(EnvironmentKind kind) noexcept {
     constexpr const char* names[] = {"none", "sky", "picture"};
     return names[static_cast<std::size_t>(kind)];
 }
 
+/// Light from all around.
 struct Environment {
     EnvironmentKind kind = EnvironmentKind::none;
     Sky sky = {};
@@ -32,8 +35,9 @@ struct Environment {
 [[nodiscard]] inline Result<void> check_environment(const Environment& environment) {
     if (environment.kind != EnvironmentKind::picture) return {};
     if (!environment.picture)
-        return Error{Errc::invalid_argument, "an environment of the kind 'picture' has no picture: read one with read_hdr"};
+        return Error{Errc::invalid_argument,
+                     "an environment of the kind 'picture' has no picture: read one with read_hdr"};
     return check_environment(*environment.picture, "the environment");
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -16,6 +16,7 @@ struct Bounds {
     [[nodiscard]] bool empty() const noexcept { return lower.x > upper.x; }
 };
 
+/// The bounds of the corners of every instance's box, in the world.
 [[nodiscard]] inline Bounds scene_bounds(const Scene& scene) {
     Bounds b;
     for (const Instance& instance : scene.instances) {
@@ -48,4 +49,4 @@ struct Bounds {
     return camera;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -217,4 +217,4 @@ PELLUCID_INLINE Result<Scene> load_gltf(const std::string& path, const GltfLimit
     }
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -292,4 +292,4 @@ PELLUCID_INLINE Result<void> write_gltf(const std::string& path, const Scene& sc
     return detail::write_file(path, bytes);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -18,7 +18,7 @@ namespace pellucid::inline v0_1 {
 /// Errc::io.
 Result<void> write_gltf(const std::string& path, const Scene& scene);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/gltf_write-inl.hpp>

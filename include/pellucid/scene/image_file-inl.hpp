@@ -183,4 +183,4 @@ PELLUCID_INLINE Result<Image8> read_pgm(const std::string& path, const ImageLimi
     return image;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

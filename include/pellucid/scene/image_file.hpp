@@ -15,6 +15,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What a picture may take before a decoder refuses it.
 struct ImageLimits {
     std::uint32_t max_side = 16384;                     ///< [texel]
     std::uint64_t max_bytes = std::uint64_t{1} << 30u;  ///< [B] of the decoded picture, 4 a texel
@@ -62,7 +63,7 @@ Result<ImageF> read_pfm(const std::string& path, const ImageLimits& limits = {})
 /// Reads a binary 8-bit PGM ("P5") to `[h, w, 1]`.
 Result<Image8> read_pgm(const std::string& path, const ImageLimits& limits = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/image_file-inl.hpp>

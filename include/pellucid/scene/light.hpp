@@ -15,8 +15,10 @@
 
 namespace pellucid::inline v0_1 {
 
+/// The three kinds of KHR_lights_punctual.
 enum class LightKind : std::uint8_t { directional, point, spot };
 
+/// A punctual light; `check_light` checks the ranges.
 struct Light {
     LightKind kind = LightKind::point;
     glm::vec3 color{1, 1, 1};                ///< linear, each >= 0

@@ -54,4 +54,4 @@ PELLUCID_INLINE Scene make_light_field(const LightField& field) {
     return std::move(builder.scene);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

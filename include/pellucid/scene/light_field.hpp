@@ -8,6 +8,7 @@
 
 namespace pellucid::inline v0_1 {
 
+/// A field of small lights over a floor with pillars.
 struct LightField {
     std::uint32_t lights = 1000;  ///< every fourth is a spot that points down, the others are point lights
     double overlap = 4;           ///< lights over a point of the floor, on average, however many there are
@@ -20,7 +21,7 @@ struct LightField {
 /// the same scene.
 [[nodiscard]] Scene make_light_field(const LightField& field = {});
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/light_field-inl.hpp>

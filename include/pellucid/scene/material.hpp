@@ -11,10 +11,14 @@
 
 namespace pellucid::inline v0_1 {
 
+/// What alpha means: nothing, a hole below the cutoff, or coverage.
 enum class AlphaMode : std::uint8_t { opaque, mask, blend };
+/// Between texels, or the nearest.
 enum class TextureFilter : std::uint8_t { nearest, linear };
+/// What is beyond the border of a texture.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 
+/// How a texture is sampled, as glTF has it.
 struct TextureSampler {
     TextureFilter min = TextureFilter::linear;
     TextureFilter mag = TextureFilter::linear;
@@ -37,6 +41,7 @@ struct TextureRef {
     [[nodiscard]] bool used() const noexcept { return texture != no_index; }
 };
 
+/// A metallic-roughness material of glTF 2.0.
 struct Material {
     glm::vec4 base_color{1, 1, 1, 1};  ///< linear, straight alpha, each in [0,1]
     float metallic = 1;                ///< [0,1]
@@ -59,6 +64,7 @@ struct Material {
     std::string name = {};
 };
 
+/// A picture and how it is sampled.
 struct SceneTexture {
     std::uint32_t image = no_index;  ///< index into Scene::images
     TextureSampler sampler = {};

@@ -119,4 +119,4 @@ PELLUCID_INLINE std::vector<Image8> make_mipmaps(const Image8& image, MipContent
     return chain;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

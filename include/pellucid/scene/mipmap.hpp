@@ -34,7 +34,7 @@ enum class MipContent : std::uint8_t {
 /// codes.
 [[nodiscard]] std::uint8_t srgb_from_linear(double linear);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/mipmap-inl.hpp>

@@ -170,4 +170,4 @@ PELLUCID_INLINE Mesh make_plane(float size_x, float size_z, float tiles) {
     return mesh;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

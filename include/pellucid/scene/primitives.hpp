@@ -38,7 +38,7 @@ namespace pellucid::inline v0_1 {
 /// Sets `mesh.lower` and `mesh.upper` from its positions.
 void update_bounds(Mesh& mesh);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/primitives-inl.hpp>

@@ -251,4 +251,4 @@ PELLUCID_INLINE Scene make_sheets(const std::vector<Sheet>& sheets, std::uint32_
     return std::move(builder.scene);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

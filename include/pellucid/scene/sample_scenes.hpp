@@ -67,7 +67,7 @@ struct Sheet {
 /// picture.
 [[nodiscard]] Scene make_sheets(const std::vector<Sheet>& sheets, std::uint32_t depth_bits = 8);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/sample_scenes-inl.hpp>

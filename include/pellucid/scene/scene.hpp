@@ -18,6 +18,7 @@ struct Instance {
     glm::dmat4 world_from_object{1.0};
 };
 
+/// Everything that is drawn, in arrays that refer to each other by index.
 struct Scene {
     std::vector<Mesh> meshes = {};
     std::vector<Instance> instances = {};

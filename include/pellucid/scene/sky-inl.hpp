@@ -115,4 +115,4 @@ PELLUCID_INLINE ImageF make_sky_table(const Sky& sky) {
     return table;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -44,6 +44,7 @@ template <std::floating_point T>
 [[nodiscard]] T sky_row(T roughness) noexcept {
     return T(sky_rows - 1) * std::pow(std::clamp(roughness, T(0), T(1)), T(0.55));
 }
+/// The column of the table for a height and a roughness.
 template <std::floating_point T>
 [[nodiscard]] T sky_column(T y, T roughness) noexcept {
     const T power = T(0.3) + T(0.4) * std::clamp(roughness, T(0), T(1));
@@ -77,7 +78,7 @@ template <std::floating_point T>
            (texel(0, 1) * (T(1) - fx) + texel(1, 1) * fx) * fy;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/sky-inl.hpp>

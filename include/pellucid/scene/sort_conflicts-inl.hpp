@@ -158,4 +158,4 @@ PELLUCID_INLINE std::string to_text(const SortConflicts& conflicts) {
     return text;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

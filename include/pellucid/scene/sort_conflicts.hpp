@@ -32,6 +32,7 @@ namespace pellucid::inline v0_1 {
 
 /// What the detector found.  Instances are indices into Scene::instances, in rising order.
 struct SortConflicts {
+    /// Two translucent instances without a right order.
     struct Pair {
         std::uint32_t first = 0, second = 0;  ///< first < second
         friend bool operator==(const Pair&, const Pair&) = default;
@@ -57,7 +58,7 @@ struct SortConflicts {
 /// One sentence for a person: what conflicts, with the first few instances by number; empty where `exact`.
 [[nodiscard]] std::string to_text(const SortConflicts& conflicts);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/sort_conflicts-inl.hpp>

@@ -192,4 +192,4 @@ PELLUCID_INLINE void make_tangents(Mesh& mesh) {
     make_tangents(mesh, uv);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -31,7 +31,7 @@ void make_tangents(Mesh& mesh);
 /// A unit vector orthogonal to the unit vector `normal`.
 [[nodiscard]] glm::vec3 any_tangent(glm::vec3 normal);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/tangents-inl.hpp>

@@ -244,4 +244,4 @@ PELLUCID_INLINE Mesh make_teapot(std::uint32_t divisions, TeapotSurface surface)
     return mesh.take();
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -47,7 +47,7 @@ enum class TeapotSurface : std::uint8_t {
 /// Newell's model; else an edge that two triangles do not share is on one of the openings that `TeapotSurface` names.
 [[nodiscard]] Mesh make_teapot(std::uint32_t divisions, TeapotSurface surface = TeapotSurface::with_bottom);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 
 #ifdef PELLUCID_HEADER_ONLY
 #include <pellucid/scene/teapot-inl.hpp>

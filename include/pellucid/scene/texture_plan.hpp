@@ -20,6 +20,7 @@ struct TextureArrayPlan {
     std::vector<std::uint32_t> images;  ///< image of each layer
 };
 
+/// Which arrays the textures of a scene are in, and where.
 struct TexturePlan {
     /// Where a texture lies when it is read as colour (sRGB) or as data (linear).
     struct Place {
@@ -131,4 +132,4 @@ inline TexturePlan plan_textures(const Scene& scene, std::uint32_t max_arrays, s
     return plan;
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -108,4 +108,4 @@ TEST_CASE("after OpenGL calls of one's own, reset_state brings everything back",
     CHECK(draw() == 0xFFFFFFFFu);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

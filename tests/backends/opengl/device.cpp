@@ -122,4 +122,4 @@ TEST_CASE("a group that does not fit is refused with its name and the binding", 
     CHECK(message({.slot = rhi::GroupSlot::frame, .debug_name = "g"}).find("bind_frame") != std::string::npos);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

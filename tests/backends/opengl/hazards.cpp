@@ -60,4 +60,4 @@ TEST_CASE("what no shader stored to needs no barrier", "[cpu]") {
         CHECK(pass(hazards, texture, access, true) == 0);
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

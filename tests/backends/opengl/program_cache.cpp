@@ -102,4 +102,4 @@ TEST_CASE("a cache that cannot be written is a warning", "[gpu]") {
     if (!said.empty()) CHECK(said[0].find("/nonexistent-folder/programs.bin") != std::string::npos);
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -225,4 +225,4 @@ TEST_CASE("wrong frames and tickets are results", "[gpu]") {
     CHECK_FALSE(device->done(rhi::Ticket{static_cast<std::uint64_t>(ticket) + 1}));
 }
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -28,4 +28,4 @@ TEST_CASE("given values replace defaults, and unknown ids are left out", "[cpu]"
           Constants{{.id = 0, .value = 1}, {.id = 7, .value = 70}});
 }
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -86,4 +86,4 @@ struct FlipPictures {
     return result;
 }
 
-}  // namespace pellucid::measure::detail
+}  // namespace pellucid::inline v0_1::measure::detail

@@ -51,4 +51,4 @@ using Plane = Image<double>;
     return out;
 }
 
-}  // namespace pellucid::measure::detail
+}  // namespace pellucid::inline v0_1::measure::detail

@@ -162,4 +162,4 @@ struct Prepared {
     return {};
 }
 
-}  // namespace pellucid::reference::detail
+}  // namespace pellucid::inline v0_1::reference::detail

@@ -189,4 +189,4 @@ inline void find_hits(const Prepared& prepared, const PixelRect& rect, std::span
     return fragment;
 }
 
-}  // namespace pellucid::reference::detail
+}  // namespace pellucid::inline v0_1::reference::detail

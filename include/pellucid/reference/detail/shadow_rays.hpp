@@ -50,4 +50,4 @@ namespace pellucid::inline v0_1::reference::detail {
     });
 }
 
-}  // namespace pellucid::reference::detail
+}  // namespace pellucid::inline v0_1::reference::detail

@@ -74,4 +74,4 @@ inline Tiles make_tiles(const Prepared& prepared) {
     return tiles;
 }
 
-}  // namespace pellucid::reference::detail
+}  // namespace pellucid::inline v0_1::reference::detail

@@ -139,4 +139,4 @@ private:
     std::vector<Node> nodes_;
 };
 
-}  // namespace pellucid::reference::detail
+}  // namespace pellucid::inline v0_1::reference::detail

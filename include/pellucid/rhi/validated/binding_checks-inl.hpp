@@ -257,4 +257,4 @@ PELLUCID_INLINE bool RecordingChecks::dispatch_indirect(rhi::Buffer buffer, std:
     return work(Pass::compute, "dispatch_indirect") && arguments(buffer, offset, 12, where("dispatch_indirect"));
 }
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

@@ -127,7 +127,7 @@ private:
     std::vector<rhi::RecordSlice> records_;
 };
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated
 
 #if defined(PELLUCID_HEADER_ONLY)
 #include <pellucid/rhi/validated/binding_checks-inl.hpp>

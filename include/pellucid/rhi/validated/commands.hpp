@@ -140,4 +140,4 @@ private:
     typename B::Commands* inner_ = nullptr;  ///< while a frame is recorded
 };
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

@@ -110,4 +110,4 @@ PELLUCID_INLINE bool RecordingChecks::generate_mips(rhi::Texture texture) {
     return true;
 }
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

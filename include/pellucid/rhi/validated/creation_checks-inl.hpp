@@ -125,4 +125,4 @@ PELLUCID_INLINE bool CreationChecks::results(rhi::Queries queries, std::uint32_t
                             "', which has ", info->count);
 }
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

@@ -3,7 +3,7 @@
 /// \file
 /// `Validated<B>::Device`: keeps what it knows of each object and forwards with the backend's own handles.
 #include <memory>
-#include <pellucid/rhi/backend.hpp>
+#include <pellucid/rhi/surface.hpp>
 #include <pellucid/rhi/validated/commands.hpp>
 
 namespace pellucid::inline v0_1::validated {
@@ -109,6 +109,18 @@ public:
     std::uint64_t api_calls() const { return inner_->api_calls(); }
     std::uint32_t live_objects() const { return inner_->live_objects(); }
 
+    /// Whether `Surface::present` may show a texture now; says why not.
+    [[nodiscard]] bool may_present(rhi::Texture texture) {
+        if (commands_.checks_.recording())
+            return objects_.report("present: a frame is being recorded; submit it first");
+        const TextureInfo* info = objects_.find(texture, "present");
+        if (!info) return false;
+        if (!has(info->desc.usage, rhi::TextureUsage::copy_source))
+            return objects_.report("present: the texture '", info->name, "' lacks the usage copy_source");
+        const Result<void> shown = rhi::check_presentable(info->desc.format, info->name.c_str());
+        return shown ? true : objects_.report(shown.error().message);
+    }
+
     /// Rules broken so far; each one was said to the log.
     [[nodiscard]] std::uint64_t violations() const { return objects_.report.violations; }
     /// The wrapped device, and its handle of one of this device's live objects.
@@ -150,4 +162,4 @@ private:
     rhi::Ticket last_ = rhi::Ticket::none;
 };
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

@@ -175,4 +175,4 @@ struct Objects {
     [[nodiscard]] auto* find(auto handle, const std::string& where) { return of(handle).find(handle, report, where); }
 };
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

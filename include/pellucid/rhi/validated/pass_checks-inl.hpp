@@ -250,4 +250,4 @@ PELLUCID_INLINE bool RecordingChecks::end_query(rhi::Queries queries, std::uint3
     return true;
 }
 
-}  // namespace pellucid::validated
+}  // namespace pellucid::inline v0_1::validated

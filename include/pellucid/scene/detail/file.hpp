@@ -72,4 +72,4 @@ inline Result<void> write_file(const std::string& path, std::span<const std::byt
     return Error{Errc::io, path + ": " + std::to_string(bytes.size()) + " bytes could not be written: " + why};
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

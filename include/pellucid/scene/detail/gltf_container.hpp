@@ -96,4 +96,4 @@ inline Json gltf_parse_json(std::string_view text, const GltfLimits& limits) {
     }
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -335,4 +335,4 @@ private:
     const std::byte* sparse_values_ = nullptr;
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -302,4 +302,4 @@ private:
     bool warned_morph_ = false;
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

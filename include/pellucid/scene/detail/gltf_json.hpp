@@ -96,4 +96,4 @@ inline void gltf_check_depth(std::string_view text, std::uint32_t limit) {
     }
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -197,4 +197,4 @@ private:
     std::vector<std::size_t> sources_;                ///< the file's images, in order of use: index = Scene::images
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

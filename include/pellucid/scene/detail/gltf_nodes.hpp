@@ -241,4 +241,4 @@ private:
     std::vector<std::uint32_t> depth_;
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

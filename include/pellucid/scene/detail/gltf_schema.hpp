@@ -361,4 +361,4 @@ private:
     Json& root_;
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

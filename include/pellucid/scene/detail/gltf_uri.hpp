@@ -93,4 +93,4 @@ namespace pellucid::inline v0_1::detail {
     return (folder / *path).string();
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -100,4 +100,4 @@ inline Result<Image8> decode_jpeg(std::span<const std::byte> bytes, const std::s
     return image;
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

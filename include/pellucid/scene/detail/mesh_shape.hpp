@@ -246,4 +246,4 @@ template <class F>
            });
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

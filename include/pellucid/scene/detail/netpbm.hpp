@@ -48,4 +48,4 @@ inline Result<NetpbmHeader> read_netpbm_header(std::string_view text, const std:
     return header;
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

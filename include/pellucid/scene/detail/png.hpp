@@ -129,4 +129,4 @@ inline Result<std::vector<std::byte>> encode_png(const Image8& image, const std:
     return bytes;
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

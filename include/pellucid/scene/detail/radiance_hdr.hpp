@@ -246,4 +246,4 @@ private:
     std::size_t at_ = 0;  ///< [B] of the scan lines read so far
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

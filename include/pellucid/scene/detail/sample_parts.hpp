@@ -103,4 +103,4 @@ inline Camera sample_camera_around(glm::dvec3 lower, glm::dvec3 upper, glm::dvec
     return sample_camera(middle + 1.04 * distance * glm::dvec3(axes[2]), middle, vertical_fov);
 }
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -32,4 +32,4 @@ public:
     }
 };
 
-}  // namespace pellucid::detail
+}  // namespace pellucid::inline v0_1::detail

@@ -17,4 +17,4 @@ inline constinit thread_local std::uint64_t* call_counter = nullptr;
 void install_call_counting();
 void remove_call_counting();
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -103,6 +103,7 @@ public:
 
 private:
     friend class Device;
+    friend class Surface;
 
     void set_raster(const RasterState* raster);
     void bind_other_group(rhi::Group group);
@@ -159,4 +160,4 @@ private:
     Ring uniforms_, records_, staging_;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

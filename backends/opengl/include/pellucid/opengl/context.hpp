@@ -6,6 +6,7 @@
 #include <pellucid/core/log.hpp>
 #include <pellucid/core/result.hpp>
 #include <pellucid/opengl/calls.hpp>
+#include <pellucid/rhi/desc.hpp>
 #include <string>
 #include <vector>
 
@@ -16,10 +17,12 @@ struct Adapter {
     void* display = nullptr;   ///< EGLDisplay, not yet initialised
     std::string name;          ///< for messages before there is a context
     bool by_platform = false;  ///< surfaceless platform: may be a device of the enumeration once more
+    bool borrowed = false;     ///< on a connection of the window library's, which may close it after the last context
 };
 
-/// What there is on this machine; empty where there is no EGL.
-[[nodiscard]] std::vector<Adapter> find_adapters();
+/// What there is on this machine; empty where there is no EGL.  With a `display`, only the device that drives it: EGL
+/// makes windows for the contexts of their own display alone.
+[[nodiscard]] std::vector<Adapter> find_adapters(const rhi::NativeDisplay& display = {});
 
 /// Where the driver's debug messages go while a context is in validation mode.
 struct DebugSink {
@@ -30,7 +33,8 @@ struct DebugSink {
 inline constinit thread_local std::uint64_t current_context = 0;  ///< serial number; 0: none of ours
 
 /// Owns an EGL context.  It belongs to the thread that made it: EGL refuses to make it current on a second one while it
-/// is current on the first.  The EGL display under it is shared by the whole process and stays initialised.
+/// is current on the first.  The EGL display under it is shared by the whole process and stays initialised, but for one
+/// on a window library's connection: that ends with its last context, since the connection may be closed then.
 class Context {
 public:
     /// A new context, made current.  `unsupported` with what `adapter` lacks.
@@ -46,6 +50,13 @@ public:
         return make_current();
     }
     [[nodiscard]] bool no_error() const noexcept { return no_error_; }
+    /// Makes it current together with a window's EGLSurface, from now on; null: without one.  False where EGL refuses.
+    bool show_in(void* surface) noexcept {
+        surface_ = surface;
+        return make_current();
+    }
+    [[nodiscard]] void* display() const noexcept { return display_; }  ///< the EGLDisplay
+    [[nodiscard]] void* surface() const noexcept { return surface_; }
 
     std::uint64_t calls = 0;  ///< counted API calls (calls.hpp)
 
@@ -55,8 +66,10 @@ private:
 
     void* display_ = nullptr;
     void* context_ = nullptr;
+    void* surface_ = nullptr;
     std::uint64_t serial_ = 0;
     bool no_error_ = false;
+    bool borrowed_ = false;
 };
 
 /// Restores, when it ends, what was current on this thread when it began.
@@ -73,4 +86,4 @@ private:
     std::uint64_t* counter_;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

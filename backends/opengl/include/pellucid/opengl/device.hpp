@@ -28,6 +28,7 @@ namespace pellucid::inline v0_1::opengl {
 
 class ProgramCache;
 
+/// An OpenGL 4.5 context without a window, and everything that is made in it; used on the thread that made it.
 class Device {
 public:
     /// `no_device` where none fits `desc.device` (with what was found), `unsupported` where one lacks what is asked
@@ -85,6 +86,7 @@ public:
     [[nodiscard]] GLuint gl_name(rhi::Pipeline pipeline) const { return objects_.pipelines[pipeline].program; }
 
 private:
+    friend class Surface;
     struct Fence {
         GLsync sync = nullptr;
         std::uint64_t ticket = 0;
@@ -108,6 +110,7 @@ private:
     std::deque<RasterState> rasters_;  ///< stable addresses; each state once
     std::unique_ptr<ProgramCache> programs_;
     LogSink log_;
+    rhi::NativeDisplay display_;
     bool validation_ = false, gl_spirv_ = false, counting_ = false;
 
     std::uint32_t frames_in_flight_ = 2;
@@ -117,4 +120,4 @@ private:
     Fence fences_[4] = {};                         ///< by slot
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -38,4 +38,4 @@ private:
     std::unordered_map<FramebufferKey, GLuint, Hash> made_;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

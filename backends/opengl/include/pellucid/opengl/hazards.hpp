@@ -75,4 +75,4 @@ private:
     std::array<std::uint64_t, 32> issued_{};  ///< by bit: everything up to this pass is covered
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -79,4 +79,4 @@ struct Objects {
     SlotMap<rhi::QueriesTag, QueriesObject> queries;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

@@ -24,4 +24,4 @@ struct OpenGL {
 };
 static_assert(rhi::Backend<OpenGL>);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

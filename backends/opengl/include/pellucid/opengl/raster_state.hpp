@@ -39,4 +39,4 @@ void apply(RasterState& now, const RasterState& wanted);
 void open_depth_masks(RasterState& now);
 void open_color_mask(RasterState& now, std::uint32_t i);
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

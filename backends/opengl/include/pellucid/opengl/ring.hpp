@@ -63,4 +63,4 @@ private:
     bool label_ = false;
 };
 
-}  // namespace pellucid::opengl
+}  // namespace pellucid::inline v0_1::opengl

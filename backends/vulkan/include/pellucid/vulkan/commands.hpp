@@ -160,4 +160,4 @@ private:
     Error error_;
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -62,6 +62,7 @@ struct Context {
     LogSink log;
     rhi::DeviceInfo device_info;
     std::unique_ptr<Instance> instance;
+    rhi::NativeDisplay display;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkPhysicalDeviceLimits limits = {};
     VkDevice device = VK_NULL_HANDLE;
@@ -131,8 +132,10 @@ struct Context {
     }
     void retire(Garbage item);
     void destroy_now(const Garbage& item);
-    /// Submits the current upload piece, if it holds anything, and the frame's commands, if given.
-    [[nodiscard]] Result<std::uint64_t> submit(VkCommandBuffer frame_commands);
+    /// Submits the current upload piece, if it holds anything, and the frame's commands, if given.  Those wait for
+    /// `before`, a transfer's semaphore, and signal `after`, where these are not null.
+    [[nodiscard]] Result<std::uint64_t> submit(VkCommandBuffer frame_commands, VkSemaphore before = VK_NULL_HANDLE,
+                                               VkSemaphore after = VK_NULL_HANDLE);
 
     // memory (buffer.cpp, upload.cpp)
     [[nodiscard]] Result<Allocation> allocate(const MemoryRequest& request);
@@ -164,4 +167,4 @@ struct Context {
     void save_pipeline_cache();
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

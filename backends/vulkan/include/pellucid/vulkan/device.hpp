@@ -21,10 +21,12 @@ struct NativeDevice {
     std::uint32_t family;
     DeviceTable* table;  ///< a test may replace entries to make calls fail
 };
+/// A texture as Vulkan knows it, for code that mixes its own Vulkan with this library's.
 struct NativeTexture {
     VkImage image;
     VkImageView view;  ///< all levels and layers
 };
+/// A pipeline as Vulkan knows it.
 struct NativePipeline {
     VkPipeline pipeline;
     VkPipelineLayout layout;
@@ -87,6 +89,7 @@ public:
     [[nodiscard]] std::uint64_t memory_used() const { return context_.memory.used_bytes(); }
 
 private:
+    friend class Surface;
     Device() : commands_(context_) {}
     [[nodiscard]] Result<void> init(const rhi::DeviceDesc& desc);
 
@@ -94,4 +97,4 @@ private:
     Commands commands_;
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -16,7 +16,10 @@
     X(GetPhysicalDeviceFeatures2) X(GetPhysicalDeviceMemoryProperties) X(GetPhysicalDeviceQueueFamilyProperties) \
     X(GetPhysicalDeviceFormatProperties) X(GetPhysicalDeviceImageFormatProperties) \
     X(EnumerateDeviceExtensionProperties) X(CreateDevice) X(GetDeviceProcAddr)
-#define PELLUCID_VULKAN_INSTANCE_OPTIONAL(X) X(CreateDebugUtilsMessengerEXT) X(DestroyDebugUtilsMessengerEXT)
+#define PELLUCID_VULKAN_INSTANCE_OPTIONAL(X) \
+    X(CreateDebugUtilsMessengerEXT) X(DestroyDebugUtilsMessengerEXT) \
+    X(DestroySurfaceKHR) X(GetPhysicalDeviceSurfaceSupportKHR) X(GetPhysicalDeviceSurfaceCapabilitiesKHR) \
+    X(GetPhysicalDeviceSurfaceFormatsKHR) X(GetPhysicalDeviceSurfacePresentModesKHR)
 #define PELLUCID_VULKAN_DEVICE_FUNCTIONS(X) \
     X(DestroyDevice) X(GetDeviceQueue) X(DeviceWaitIdle) X(QueueSubmit2) \
     X(AllocateMemory) X(FreeMemory) X(MapMemory) \
@@ -32,6 +35,7 @@
     X(CreateCommandPool) X(DestroyCommandPool) X(ResetCommandPool) X(AllocateCommandBuffers) \
     X(BeginCommandBuffer) X(EndCommandBuffer) \
     X(CreateFence) X(DestroyFence) X(ResetFences) X(WaitForFences) X(GetFenceStatus) \
+    X(CreateSemaphore) X(DestroySemaphore) \
     X(CreateQueryPool) X(DestroyQueryPool) X(ResetQueryPool) X(GetQueryPoolResults) \
     X(CmdPipelineBarrier2) X(CmdBeginRendering) X(CmdEndRendering) \
     X(CmdBindPipeline) X(CmdBindDescriptorSets) X(CmdBindIndexBuffer) X(CmdPushConstants) \
@@ -40,7 +44,8 @@
     X(CmdCopyBuffer) X(CmdCopyBufferToImage) X(CmdCopyImageToBuffer) X(CmdBlitImage) X(CmdFillBuffer) \
     X(CmdResetQueryPool) X(CmdWriteTimestamp2) X(CmdBeginQuery) X(CmdEndQuery)
 #define PELLUCID_VULKAN_DEVICE_OPTIONAL(X) \
-    X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT)
+    X(SetDebugUtilsObjectNameEXT) X(CmdBeginDebugUtilsLabelEXT) X(CmdEndDebugUtilsLabelEXT) \
+    X(CreateSwapchainKHR) X(DestroySwapchainKHR) X(GetSwapchainImagesKHR) X(AcquireNextImageKHR) X(QueuePresentKHR)
 // clang-format on
 
 namespace pellucid::inline v0_1::vulkan {
@@ -51,13 +56,13 @@ struct GlobalTable {
     PFN_vkGetInstanceProcAddr GetInstanceProcAddr = nullptr;
     PELLUCID_VULKAN_GLOBAL_FUNCTIONS(PELLUCID_VULKAN_MEMBER)
 };
-/// Functions of an instance; the optional ones (debug utils) may be null.
+/// Functions of an instance; the optional ones (debug utils, surfaces) may be null.
 struct InstanceTable {
     PELLUCID_VULKAN_INSTANCE_FUNCTIONS(PELLUCID_VULKAN_MEMBER)
     PELLUCID_VULKAN_INSTANCE_OPTIONAL(PELLUCID_VULKAN_MEMBER)
 };
 /// Functions of one device, straight from its driver (or from the layers in front of it); the optional ones (debug
-/// utils) may be null.  A test may replace an entry to make a call fail.
+/// utils, swapchains) may be null.  A test may replace an entry to make a call fail.
 struct DeviceTable {
     PELLUCID_VULKAN_DEVICE_FUNCTIONS(PELLUCID_VULKAN_MEMBER)
     PELLUCID_VULKAN_DEVICE_OPTIONAL(PELLUCID_VULKAN_MEMBER)
@@ -98,4 +103,4 @@ private:
 /// The error for a failed call: "<what> for '<name>' returned VK_…".
 [[nodiscard]] Error api_error(VkResult result, const char* what, const char* name);
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -35,6 +35,7 @@ struct Candidate {
     std::uint32_t family = 0;  ///< queue family with graphics and compute
     std::uint32_t timestamp_bits = 0;
     bool interlock = false;
+    bool swapchain = false;
 };
 
 /// Owns the VkInstance and its message callback.
@@ -43,8 +44,11 @@ public:
     /// With `validation`: the Khronos layer with synchronisation validation, also across submissions; its messages of
     /// kind validation and performance go to `log`.  Sets VK_LAYER_ENABLES in the environment while the instance is
     /// made (the layer of 2023 knows no other way), so no other thread may read the environment meanwhile.
-    /// \returns `no_device` without a loader of Vulkan 1.3, `unsupported` where the layer is not installed.
-    [[nodiscard]] static Result<std::unique_ptr<Instance>> create(bool validation, LogSink log);
+    /// With `windows`: surfaces of that system can be made, and devices without swapchains are not usable.
+    /// \returns `no_device` without a loader of Vulkan 1.3, `unsupported` where the layer is not installed or the
+    /// loader knows no such windows.
+    [[nodiscard]] static Result<std::unique_ptr<Instance>> create(bool validation, LogSink log,
+                                                                  rhi::WindowSystem windows = rhi::WindowSystem::none);
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
     ~Instance();
@@ -58,6 +62,7 @@ public:
     InstanceTable vk;
     VkInstance handle = VK_NULL_HANDLE;
     bool debug_utils = false;
+    rhi::WindowSystem windows = rhi::WindowSystem::none;
     LogSink log;
 
 private:
@@ -69,4 +74,4 @@ private:
 /// \returns the names of what is missing, separated by commas; empty where nothing is.
 [[nodiscard]] std::string choose_features(const Features& had, Features& wanted);
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

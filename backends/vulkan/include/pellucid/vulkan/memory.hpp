@@ -94,4 +94,4 @@ private:
     std::uint32_t block_count_ = 0;
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -111,4 +111,4 @@ struct QueriesObject {
     rhi::QueryKind kind = rhi::QueryKind::timestamp;
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

@@ -9,5 +9,5 @@
 #if !defined(PELLUCID_HEADER_ONLY)
 namespace pellucid::inline v0_1 {
 PELLUCID_RENDERER_INSTANCES(extern, Vulkan)
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1
 #endif

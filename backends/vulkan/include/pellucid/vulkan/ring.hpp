@@ -62,4 +62,4 @@ private:
     const char* debug_name_ = "";
 };
 
-}  // namespace pellucid::vulkan
+}  // namespace pellucid::inline v0_1::vulkan

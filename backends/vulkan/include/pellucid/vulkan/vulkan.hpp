@@ -14,6 +14,7 @@ namespace vulkan {
 class Surface;  // vulkan/surface.hpp
 }
 
+/// The backend for Vulkan 1.3: the type that passes, renderers and `rhi::with_backend` are instantiated with.
 struct Vulkan {
     static constexpr const char* name = "vulkan";
     using Device = vulkan::Device;
@@ -29,4 +30,4 @@ struct Vulkan {
 
 static_assert(rhi::Backend<Vulkan>);
 
-}  // namespace pellucid
+}  // namespace pellucid::inline v0_1

@@ -1,0 +1,7 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+/// \file
+/// In scope: an open device.
+#include <pellucid/pellucid.hpp>
+
+#define SETUP_PARAMETERS typename B::Device& device
