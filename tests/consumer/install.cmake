@@ -3,6 +3,7 @@
 # leaves the tree in WORK/prefix.  It is staged by DESTDIR, as a packager does it.
 cmake_minimum_required(VERSION 3.25)
 string(REPLACE "," ";" COMPONENTS "${COMPONENTS}")
+string(REPLACE "," ";" PROGRAMS "${PROGRAMS}")
 file(REMOVE_RECURSE ${WORK}/staged ${WORK}/prefix)
 set(ENV{DESTDIR} ${WORK}/staged)
 execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix /where/it/was/told
