@@ -5,9 +5,11 @@
 //     compile_time [--compiler PROGRAM] [--rounds N] [--headers] [--check] [--json FILE] [--markdown FILE]
 //
 // A time is the compiler's user time.  In every round each case is compiled once, right after the empty file and the
-// yardstick (a fixed file of standard headers), and what is told is the median of the rounds' own differences and
-// ratios: what else runs on the machine slows all three.  --check asks whether the umbrella with one backend keeps its
-// budget.  Exit status: 0 measured; 1 it does not compile, or --check and the budget is exceeded; 2 usage.
+// yardstick (a fixed file of standard headers), headers alone eight at a time, and what is told is the median of the
+// rounds' own differences and ratios: what else runs on the machine slows all of them.  --check asks whether the
+// umbrella with one backend keeps its budget.  Exit status: 0 measured; 1 it does not compile, or --check and the
+// budget is exceeded; 2 usage.
+#include <span>
 #include "compile_time/cases.hpp"
 #include "compile_time/compiler.hpp"
 #include "support/machine.hpp"
@@ -34,13 +36,16 @@ struct Row {
     std::vector<double> ratio;   ///< of that to the yardstick's
 };
 
-Result<void> measure(Compiler& compiler, std::vector<Row>& rows, std::uint32_t rounds) {
+/// Measures rows that are compiled in one way.  \param together so many share an empty file and a yardstick.
+Result<void> measure(Compiler& compiler, std::span<Row> rows, std::uint32_t rounds, std::size_t together) {
     for (std::uint32_t round = 0; round < rounds; ++round) {
+        double empty = 0, yard = 0, own = 0;
         for (std::size_t i = 0; i < rows.size(); ++i) {
             Row& row = rows[round % 2 ? rows.size() - 1 - i : i];
-            double empty = 0, yard = 0, own = 0;
-            PELLUCID_TRY(empty, compiler.seconds("", {}, row.object));
-            PELLUCID_TRY(yard, compiler.seconds(yardstick, {}, row.object));
+            if (i % together == 0) {
+                PELLUCID_TRY(empty, compiler.seconds("", {}, row.object));
+                PELLUCID_TRY(yard, compiler.seconds(yardstick, {}, row.object));
+            }
             PELLUCID_TRY(own, compiler.seconds(row.what.source, row.what.definitions, row.object));
             row.beyond.push_back(own - empty);
             row.ratio.push_back((own - empty) / (yard - empty));
@@ -99,16 +104,19 @@ Result<bool> run(const Options& options) {
     auto compiler = Compiler::create(program, flags);
     if (!compiler) return compiler.error();
     std::vector<Row> rows;
-    for (const CompileCase& what : umbrella_cases()) {
-        if (!options.flag("check")) rows.push_back({what, false});
-        if (!options.flag("check") || what.definitions.size() == 1) rows.push_back({what, true});
+    const auto add = [&](const std::vector<CompileCase>& cases, bool object, std::size_t together) -> Result<void> {
+        const std::size_t first = rows.size();
+        for (const CompileCase& what : cases)
+            if (!options.flag("check") || what.definitions.size() == 1) rows.push_back({what, object});
+        return measure(*compiler, std::span(rows).subspan(first), rounds, together);
+    };
+    PELLUCID_CHECK(add(umbrella_cases(), true, 1));
+    if (!options.flag("check")) PELLUCID_CHECK(add(umbrella_cases(), false, 1));
+    if (options.flag("headers")) {
+        const std::vector<CompileCase> headers = header_cases(words(PELLUCID_COMPILE_ROOTS));
+        PELLUCID_CHECK(add(headers, false, 8));
+        PELLUCID_CHECK(add(headers, true, 8));
     }
-    if (options.flag("headers"))
-        for (const CompileCase& what : header_cases(words(PELLUCID_COMPILE_ROOTS))) {
-            rows.push_back({what, false});
-            rows.push_back({what, true});
-        }
-    PELLUCID_CHECK(measure(*compiler, rows, rounds));
     // Without the folders of one machine, so that results of several may be compared.
     const std::string version = compiler_version(program), shown = "-std=c++20 -O0";
     const std::string text = report(rows, version, shown, rounds);

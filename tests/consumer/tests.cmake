@@ -66,9 +66,12 @@ if(PELLUCID_INSTALL)
   list(JOIN components "," components)
   string(REGEX REPLACE ",?reference" "" backends "${components}")
   set(programs "")
-  if(TARGET pellucid-render)
-    set(programs bin/pellucid-render)
-  endif()
+  foreach(program pellucid-render pellucid-viewer)
+    if(TARGET ${program})
+      list(APPEND programs bin/${program})
+    endif()
+  endforeach()
+  list(JOIN programs "," programs)
   set(prefix ${work}/release/prefix)
   pellucid_consumer_script(install install "" installed 120 BUILD=${PROJECT_BINARY_DIR} WORK=${work}/release
     LIBDIR=${CMAKE_INSTALL_LIBDIR} COMPONENTS=${components} PROGRAMS=${programs})
@@ -95,7 +98,7 @@ if(PELLUCID_INSTALL)
 endif()
 
 # Packages for others' package managers, which need not be here.
-pellucid_consumer_script(vcpkg vcpkg "" "" 900 SOURCE=${PROJECT_SOURCE_DIR} WORK=${work}/vcpkg
+pellucid_consumer_script(vcpkg vcpkg "" "" 1800 SOURCE=${PROJECT_SOURCE_DIR} WORK=${work}/vcpkg
   GENERATOR=${CMAKE_GENERATOR} COMPILER=${CMAKE_CXX_COMPILER} LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
   FEATURES=${backend} VERSION=${PROJECT_VERSION})
 find_program(PELLUCID_PYTHON python3)

@@ -66,6 +66,7 @@ class PellucidConan(ConanFile):
         toolchain.cache_variables["PELLUCID_INSTALL"] = True
         toolchain.cache_variables["PELLUCID_TESTS"] = False
         toolchain.cache_variables["PELLUCID_BENCHMARKS"] = False
+        toolchain.cache_variables["PELLUCID_WINDOWS"] = False
         toolchain.cache_variables["CMAKE_DEBUG_POSTFIX"] = ""  # package_info names the libraries without one
         toolchain.generate()
         CMakeDeps(self).generate()

@@ -20,6 +20,7 @@ vcpkg_cmake_configure(
         -DPELLUCID_BENCHMARKS=OFF
         -DPELLUCID_INSTALL=ON
         -DPELLUCID_TESTS=OFF
+        -DPELLUCID_WINDOWS=OFF
         "-DPKG_CONFIG_EXECUTABLE=${PKGCONFIG}"
 )
 vcpkg_cmake_install()
