@@ -40,10 +40,10 @@ foreach(page IN LISTS pages)
       target_link_libraries(${name} PRIVATE pellucid::pellucid ${backends} pellucid_warnings)
       math(EXPR programs "${programs} + 1")
     elseif(kind STREQUAL "configure")
-      if(PELLUCID_INSTALL AND PROJECT_IS_TOP_LEVEL AND NOT PELLUCID_SANITIZE)
+      if(DEFINED prefix)  # of consumer/tests.cmake, where it runs and the package is installed
         add_test(NAME docs/configure/${name} COMMAND ${CMAKE_COMMAND} -S ${docs}/cmake_block
           -B ${out}/${name} -G ${CMAKE_GENERATOR} -DBLOCK=${file} -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
-          -DCMAKE_PREFIX_PATH=${PROJECT_BINARY_DIR}/tests/consumer/prefix)
+          -DCMAKE_PREFIX_PATH=${prefix})
         set_tests_properties(docs/configure/${name} PROPERTIES LABELS consumer TIMEOUT 120 FIXTURES_REQUIRED installed)
       endif()
       math(EXPR configured "${configured} + 1")
