@@ -58,6 +58,15 @@ Result<void> run_in_window(const Options& options, State& state, rhi::DeviceDesc
             backend = before;
             continue;
         }
+        // A device that is usable, and yet cannot show anything in this window.
+        const std::string& last = state.facts.backends.back();
+        if (!next && options.backend == "auto" && before.empty() && backend != last &&
+            (next.error().code == Errc::no_device || next.error().code == Errc::unsupported)) {
+            std::fprintf(stderr, "pellucid-viewer: %s is passed over: %s\n", backend.c_str(),
+                         next.error().message.c_str());
+            backend = last;
+            continue;
+        }
         if (!next) return next.error();
         if (!*next) return {};
         before = backend;

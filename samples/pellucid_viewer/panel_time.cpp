@@ -36,8 +36,15 @@ void pass_table(const Facts& facts) {
         ImGui::TableNextColumn();
         if (!pass.ran)
             ImGui::TextWrapped("%s", pass.reason.c_str());
-        else if (at != timed.end())
-            ImGui::Text("%.3f", static_cast<double>(at->ms.last()));
+        else if (at != timed.end()) {
+            char last[24];
+            std::snprintf(last, sizeof last, "%.3f", static_cast<double>(at->ms.last()));
+            ImGui::PushID(pass.name);
+            ImGui::PlotLines("##pass", at->ms.data(), static_cast<int>(at->ms.count()),
+                             static_cast<int>(at->ms.offset()), last, 0, std::max(1.1f * at->ms.max(), 0.001f),
+                             {ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()});
+            ImGui::PopID();
+        }
     }
     ImGui::EndTable();
 }
