@@ -23,10 +23,10 @@ using namespace pellucid::bench;
 
 /// DESIGN.md's budget for everything with one backend, beyond an empty file.
 constexpr double budget_s = 1.5;
-/// What the yardstick takes beyond an empty file on the machine for which the budget was set, when nothing else runs on
-/// it (g++ 12.2, two threads of an AMD EPYC).  Elsewhere, or while others compile, the budget grows and shrinks with
-/// it.
-constexpr double yardstick_s = 0.9;
+/// What the yardstick takes beyond an empty file on the machine for which the budget was set, with nothing else on it.
+/// An estimate: g++ 12.2 runs 4.37e9 instructions for it (cachegrind), at the 4.7e9 a second with which it compiled an
+/// earlier umbrella in 1.15 s there.  Elsewhere, or while others compile, the budget grows and shrinks with it.
+constexpr double yardstick_s = 0.92;
 
 /// One case, compiled in one of two ways, in all rounds.
 struct Row {
@@ -54,12 +54,12 @@ Result<void> measure(Compiler& compiler, std::span<Row> rows, std::uint32_t roun
     return {};
 }
 
-std::string report(const std::vector<Row>& rows, const std::string& compiler, const std::string& flags,
-                   std::uint32_t rounds) {
+std::string report(const std::vector<Row>& rows, const std::string& compiler, const std::string& flags) {
     std::string out = "## What including Pellucid costs\n\n" + markdown(describe_machine());
     out += "- measured: " + compiler + ", `" + flags +
            "`\n- user time beyond an empty file, and its ratio to that of a " + "fixed file of standard headers; " +
-           std::to_string(rounds) + " rounds, median [quartiles] of the rounds' own differences and ratios\n\n";
+           std::to_string(rows.front().ratio.size()) +
+           " rounds, median [quartiles] of the rounds' own differences and ratios\n\n";
     MarkdownTable table({"included", "compiled to", "[s] beyond an empty file", "x yardstick"});
     for (const Row& row : rows)
         table.row({row.what.name, row.object ? "object" : "nothing (syntax)", with_spread(summarise(row.beyond)),
@@ -107,7 +107,7 @@ Result<bool> run(const Options& options) {
     const auto add = [&](const std::vector<CompileCase>& cases, bool object, std::size_t together) -> Result<void> {
         const std::size_t first = rows.size();
         for (const CompileCase& what : cases)
-            if (!options.flag("check") || what.definitions.size() == 1) rows.push_back({what, object});
+            if (!options.flag("check") || what.definitions.size() == 1) rows.push_back({what, object, {}, {}});
         return measure(*compiler, std::span(rows).subspan(first), rounds, together);
     };
     PELLUCID_CHECK(add(umbrella_cases(), true, 1));
@@ -117,9 +117,13 @@ Result<bool> run(const Options& options) {
         PELLUCID_CHECK(add(headers, false, 8));
         PELLUCID_CHECK(add(headers, true, 8));
     }
+    // A budget that seems exceeded gets two more chances, all rounds counted: what runs beside it makes a median of few
+    // noisy.
+    for (int again = 0; again < 2 && options.flag("check") && !keeps_budget(rows); ++again)
+        PELLUCID_CHECK(measure(*compiler, rows, rounds, 1));
     // Without the folders of one machine, so that results of several may be compared.
     const std::string version = compiler_version(program), shown = "-std=c++20 -O0";
-    const std::string text = report(rows, version, shown, rounds);
+    const std::string text = report(rows, version, shown);
     std::printf("%s\n", text.c_str());
     if (!options.text("json").empty()) PELLUCID_CHECK(write_file(options.text("json"), json(rows, version, shown)));
     if (!options.text("markdown").empty()) PELLUCID_CHECK(write_file(options.text("markdown"), text));

@@ -100,7 +100,7 @@ endif()
 # Packages for others' package managers, which need not be here.
 pellucid_consumer_script(vcpkg vcpkg "" "" 1800 SOURCE=${PROJECT_SOURCE_DIR} WORK=${work}/vcpkg
   GENERATOR=${CMAKE_GENERATOR} COMPILER=${CMAKE_CXX_COMPILER} LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}
-  FEATURES=${backend} VERSION=${PROJECT_VERSION})
+  VERSION=${PROJECT_VERSION})
 find_program(PELLUCID_PYTHON python3)
 if(PELLUCID_PYTHON)
   add_test(NAME consumer/conan COMMAND ${PELLUCID_PYTHON} -B ${here}/conan.py ${PROJECT_SOURCE_DIR})
