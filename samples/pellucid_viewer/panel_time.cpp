@@ -70,6 +70,8 @@ void time_tab(const Facts& facts) {
     const RenderStats& stats = facts.left.stats;
     if (facts.history.gpu.count() > 0)
         plot("##gpu", "GPU", facts.history.gpu);
+    else if (facts.device.timestamp_ns > 0)
+        ImGui::TextWrapped("No GPU times have arrived yet.");
     else
         ImGui::TextWrapped("This device has no timestamps: the wall clock of the frame it is.");
     plot("##wall", "frame", facts.history.wall);

@@ -63,22 +63,28 @@ Result<bool> Session<B>::frame(const Input& input, Extent2D size) {
 template <rhi::Backend B>
 Result<void> Session<B>::draw_pictures() {
     const RenderSettings settings = wanted();
+    PELLUCID_CHECK(take_times());
     PELLUCID_TRY(const bool drawn, left_.draw(*device_, state_.loaded.scene, settings, state_.camera));
     Facts& facts = state_.facts;
     facts.left.problem = left_.problem();
     if (!left_.renderer()) return left_.error();
     if (left_.rebuilt()) facts.history.clear();
-    if (drawn) {  // before anything else is drawn with it: a count of layers is a frame too
-        const auto spans = left_.renderer()->gpu_times();
-        if (!spans) return said(spans);
-        facts.history.push_gpu(*spans);
-    }
     left_source_ = {.texture = left_.renderer()->display()};
     facts.left.drawn = drawn;
     facts.left.label = describe(left_.renderer()->settings());
     facts.left.stats = left_.renderer()->stats();
     PELLUCID_CHECK(draw_right(settings));
     return draw_view(settings);
+}
+
+/// Of the last frame, before its renderer draws anything else: a frame that waits on its way drops what nobody took.
+template <rhi::Backend B>
+Result<void> Session<B>::take_times() {
+    if (!left_.renderer()) return {};
+    const auto spans = left_.renderer()->gpu_times();
+    if (!spans) return said(spans);
+    state_.facts.history.push_gpu(*spans);
+    return {};
 }
 
 template <rhi::Backend B>
@@ -122,6 +128,8 @@ Result<void> Session<B>::draw_view(const RenderSettings& settings) {
         case View::picture:
             return {};
         case View::layers: {
+            PELLUCID_CHECK(device_->wait(left_.ticket()));  // counting waits too, and is a frame of the same renderer
+            PELLUCID_CHECK(take_times());
             const auto counts = left_.renderer()->count_layers();
             if (!counts) return said(counts);
             return show_heat(heat_picture(*counts, "translucent fragments a pixel"), 1);

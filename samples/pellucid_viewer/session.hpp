@@ -45,6 +45,7 @@ public:
 private:
     Session(std::unique_ptr<typename B::Device> device, State& state) : device_(std::move(device)), state_(state) {}
     [[nodiscard]] Result<void> draw_pictures();
+    [[nodiscard]] Result<void> take_times();
     [[nodiscard]] Result<void> draw_right(const RenderSettings& wanted);
     [[nodiscard]] Result<void> draw_view(const RenderSettings& wanted);
     [[nodiscard]] Result<void> draw_errors(const RenderSettings& wanted);

@@ -45,8 +45,9 @@ public:
     [[nodiscard]] Renderer<B>* renderer() const noexcept { return renderer_.get(); }
     /// One sentence: why the picture is not what was asked for; empty where it is.
     [[nodiscard]] const std::string& problem() const noexcept { return error_.message; }
-    [[nodiscard]] const Error& error() const noexcept { return error_; }  ///< the same, where there is one
-    [[nodiscard]] bool rebuilt() const noexcept { return rebuilt_; }      ///< by the last draw
+    [[nodiscard]] const Error& error() const noexcept { return error_; }   ///< the same, where there is one
+    [[nodiscard]] bool rebuilt() const noexcept { return rebuilt_; }       ///< by the last draw
+    [[nodiscard]] rhi::Ticket ticket() const noexcept { return ticket_; }  ///< of the last picture
     [[nodiscard]] double build_ms() const noexcept { return build_ms_; }
 
 private:
@@ -57,6 +58,7 @@ private:
         if (!made) return refuse(made.error());
         const Result<rhi::Ticket> drawn = (*made)->render(camera);
         if (!drawn) return refuse(drawn.error());
+        ticket_ = *drawn;
         renderer_ = std::move(*made);
         rebuilt_ = true;
         error_ = {};
@@ -64,6 +66,7 @@ private:
     }
     [[nodiscard]] Result<bool> accept(const Result<rhi::Ticket>& drawn, bool settled) {
         if (!drawn) return refuse(drawn.error());
+        ticket_ = *drawn;
         if (settled) error_ = {};
         return true;
     }
@@ -77,6 +80,7 @@ private:
     std::shared_ptr<const Scene> scene_;  ///< the last that was asked for
     RenderSettings wanted_;               ///< likewise
     Error error_;                         ///< without a message: none
+    rhi::Ticket ticket_ = rhi::Ticket::none;
     bool rebuilt_ = false;
     double build_ms_ = 0;
 };

@@ -75,7 +75,7 @@ if(PELLUCID_INSTALL)
   set(prefix ${work}/release/prefix)
   pellucid_consumer_script(install install "" installed 120 BUILD=${PROJECT_BINARY_DIR} WORK=${work}/release
     LIBDIR=${CMAKE_INSTALL_LIBDIR} COMPONENTS=${components} PROGRAMS=${programs})
-  pellucid_consumer(package ${last} package -DCMAKE_PREFIX_PATH=${prefix})
+  pellucid_consumer(package ${last} package -DCMAKE_PREFIX_PATH=${prefix} -Upellucid_DIR)  # not where it was once
   set_tests_properties(consumer/package/configure PROPERTIES FIXTURES_REQUIRED installed)
   if(TARGET pellucid::reference)
     add_test(NAME consumer/package/reference COMMAND ${work}/package/reference)

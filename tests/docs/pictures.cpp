@@ -23,8 +23,8 @@ TEST_CASE("the pages' pictures are what their commands draw", "[docs][gpu]") {
         REQUIRE(drawn);
         REQUIRE(shown->width == drawn->width);
         REQUIRE(shown->height == drawn->height);
-        CHECK(shown->width <= 640);
-        CHECK(shown->height <= 360);
+        CHECK(shown->width <= 920);
+        CHECK(shown->height <= 518);
         double sum = 0;
         for (std::size_t i = 0; i < shown->data.size(); ++i) {
             const double d = (double(shown->data[i]) - double(drawn->data[i])) / 255;

@@ -87,5 +87,31 @@ TEMPLATE_LIST_TEST_CASE("errors are black where there are none, and those of the
     }
 }
 
+TEMPLATE_LIST_TEST_CASE("a frame's GPU times arrive with the next one, also of methods that wait on their way", "[gpu]",
+                        Backends) {
+    for (const Transparency method : {Transparency::sorted, Transparency::abuffer})
+        for (const viewer::View view : {viewer::View::picture, viewer::View::layers}) {
+            CAPTURE(name(method), name(view));
+            viewer::Choices choices = TestViewer<TestType>::quick();
+            choices.render.transparency = method;
+            choices.view = view;
+            TestViewer<TestType> v(make_cyclic_triangles(), choices);
+            if (!v) return;
+            if (v.state.facts.device.timestamp_ns == 0) return;
+            for (int i = 0; i < 5; ++i) {
+                v.frame();
+                (void)v.canvas();  // waits
+            }
+            const viewer::FrameHistory& history = v.state.facts.history;
+            CHECK(history.gpu.count() >= 3);
+            const auto ran = [&](const char* pass) {
+                return std::any_of(history.passes.begin(), history.passes.end(),
+                                   [&](const auto& p) { return p.name == pass && p.ms.count() >= 3; });
+            };
+            CHECK(ran("tonemap"));
+            CHECK(ran(method == Transparency::sorted ? "sorted_forward" : "abuffer"));
+        }
+}
+
 }  // namespace
 }  // namespace pellucid::test
