@@ -88,6 +88,10 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
     if (!eglInitialize(adapter.display, &major, &minor))
         return Error{Errc::unsupported, text("a driver that starts: eglInitialize failed on the %s with error 0x%x",
                                              adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
+    std::unique_ptr<Context> made(new Context);
+    made->display_ = adapter.display;
+    made->borrowed_ = adapter.borrowed;
+    if (adapter.borrowed) borrow(adapter.display);  // given back also where no context can be had
     const char* extensions = eglQueryString(adapter.display, EGL_EXTENSIONS);
     for (const char* needed : {"EGL_KHR_create_context", "EGL_KHR_no_config_context", "EGL_KHR_surfaceless_context"})
         if (!has_word(extensions, needed)) return Error{Errc::unsupported, needed};
@@ -96,7 +100,6 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
     const bool can_skip_errors = has_word(extensions, "EGL_KHR_create_context_no_error");
     const bool can_tell_reset = major > 1 || minor >= 5 || has_word(extensions, "EGL_EXT_create_context_robustness");
     // Some drivers refuse no-error together with reset notification: ask for both, then for less.
-    std::unique_ptr<Context> made(new Context);
     for (int attempt = 0; attempt < 3 && !made->context_; ++attempt) {
         const bool reset = attempt == 0;
         const bool no_error = !validation && can_skip_errors && attempt < 2;
@@ -117,9 +120,6 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
         return Error{Errc::unsupported, text("OpenGL 4.5 core: eglCreateContext failed on the %s with error 0x%x",
                                              adapter.name.c_str(), static_cast<unsigned>(eglGetError()))};
     static std::atomic<std::uint64_t> serials = 0;
-    made->borrowed_ = adapter.borrowed;
-    if (adapter.borrowed) borrow(adapter.display);
-    made->display_ = adapter.display;
     made->serial_ = ++serials;
     if (!made->make_current())
         return Error{Errc::unsupported,
@@ -129,13 +129,12 @@ Result<std::unique_ptr<Context>> Context::open(const Adapter& adapter, bool vali
 }
 
 Context::~Context() {
-    if (!context_) return;
-    if (current_context == serial_) {
+    if (context_ && current_context == serial_) {
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
         current_context = 0;
         call_counter = nullptr;
     }
-    eglDestroyContext(display_, context_);
+    if (context_) eglDestroyContext(display_, context_);
     if (borrowed_) give_back(display_);
 }
 

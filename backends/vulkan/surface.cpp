@@ -218,7 +218,6 @@ Result<std::uint32_t> Surface::acquire(Turn& turn) {
 
 Result<void> Surface::record(Turn& turn, TextureObject& texture, VkImage image) {
     Context& c = context_;
-    PELLUCID_CHECK(c.wait(turn.ticket));
     if (const VkResult r = c.vk.ResetCommandPool(c.device, turn.pool, 0)) return fail(r, "vkResetCommandPool");
     VkCommandBufferBeginInfo begin = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -267,6 +266,7 @@ Result<bool> Surface::present(rhi::Texture handle, Extent2D size) {
     if (size.width == 0 || size.height == 0) return false;
 
     Turn& turn = turns_[turn_];
+    PELLUCID_CHECK(c.wait(turn.ticket));  // its semaphore and its commands are free again
     std::uint32_t index = none;
     for (int attempt = 0; attempt < 2 && index == none; ++attempt) {
         if (stale_ || !(size == asked_)) {

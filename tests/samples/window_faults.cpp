@@ -2,6 +2,7 @@
 // What a window system may answer at any time, injected where Vulkan's functions are called.  (EGL has one answer, that
 // a window is gone, and Xlib ends the process before it is heard.)
 #if defined(PELLUCID_HAS_VULKAN)
+#include <string>
 #include <vector>
 #include "support/windows.hpp"
 
@@ -18,7 +19,9 @@ struct Answers {
     PFN_vkAcquireNextImageKHR real_acquire = nullptr;
     PFN_vkQueuePresentKHR real_present = nullptr;
     PFN_vkCreateSwapchainKHR real_create = nullptr;
+    PFN_vkWaitForFences real_wait = nullptr;
     int created = 0;
+    std::string order;  ///< A: an image is acquired; W: the CPU waits for the GPU
 
     static VkResult take(std::vector<VkResult>& answers) {
         if (answers.empty()) return VK_SUCCESS;
@@ -31,6 +34,7 @@ Answers answers;  // a Vulkan function is a plain C function
 
 VKAPI_ATTR VkResult VKAPI_CALL acquire(VkDevice d, VkSwapchainKHR s, std::uint64_t t, VkSemaphore m, VkFence f,
                                        std::uint32_t* index) {
+    answers.order += 'A';
     const VkResult instead = Answers::take(answers.acquire);
     if (instead < 0 || instead == VK_TIMEOUT) return instead;  // nothing was acquired
     const VkResult own = answers.real_acquire(d, s, t, m, f, index);
@@ -49,6 +53,11 @@ VKAPI_ATTR VkResult VKAPI_CALL create(VkDevice d, const VkSwapchainCreateInfoKHR
     return answers.real_create(d, info, a, out);
 }
 
+VKAPI_ATTR VkResult VKAPI_CALL wait(VkDevice d, std::uint32_t n, const VkFence* fences, VkBool32 all, std::uint64_t t) {
+    answers.order += 'W';
+    return answers.real_wait(d, n, fences, all, t);
+}
+
 Shown<Vulkan> open_faulty() {
     Shown<Vulkan> shown = open_shown<Vulkan>(size);
     if (!shown) return shown;
@@ -58,7 +67,10 @@ Shown<Vulkan> open_faulty() {
                .create = {},
                .real_acquire = table.AcquireNextImageKHR,
                .real_present = table.QueuePresentKHR,
-               .real_create = table.CreateSwapchainKHR};
+               .real_create = table.CreateSwapchainKHR,
+               .real_wait = table.WaitForFences,
+               .order = {}};
+    table.WaitForFences = wait;
     table.AcquireNextImageKHR = acquire;
     table.QueuePresentKHR = present;
     table.CreateSwapchainKHR = create;
@@ -102,6 +114,14 @@ TEST_CASE("a swapchain that no longer fits is made again, once a picture", "[gpu
     answers.present = {VK_SUBOPTIMAL_KHR};
     CHECK(must(shown.surface->present(texture, size)));
     works(shown, 7);
+}
+
+TEST_CASE("a semaphore is used again only when the copy that waited for it is done", "[gpu][window]") {
+    const Shown<Vulkan> shown = open_faulty();
+    if (!shown) return;
+    const auto texture = make_texture(*shown.device, pattern(size, 1));
+    for (int i = 0; i < 6; ++i) CHECK(must(shown.surface->present(texture, size)));
+    CHECK(answers.order == "AAAWAWAWA");  // three pictures are on their way at a time
 }
 
 TEST_CASE("a window that has no image to give now is no error", "[gpu][window]") {
