@@ -36,7 +36,7 @@ int main(int argc, char** argv) {
     app.add_option("--step", sequence.step, "seconds from one picture to the next (1/30)")
         ->check(CLI::Range(0.0, 1e6))
         ->needs("--headless");
-    if (const auto status = parse_demo_options(app, argc, argv)) return *status;
+    if (const auto status = parse_command_line(app, argc, argv)) return *status;
     settings.size = options.size;
     sequence.folder = options.out;
     if (frames > 0) sequence.frames = frames;

@@ -19,7 +19,7 @@ int main(int argc, char** argv) {
     app.add_option("--frames", frames, "close the window after so many frames")
         ->check(CLI::Range(1u, 1000000u))
         ->excludes("--headless");
-    if (const auto status = parse_demo_options(app, argc, argv)) return *status;
+    if (const auto status = parse_command_line(app, argc, argv)) return *status;
     const Scene scene = make_peeling_scene();
     return run_demo(app.get_name(), options,
                     [&]<rhi::Backend B>(std::type_identity<B>, rhi::DeviceDesc desc) -> Result<void> {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
+#include "../support/command_line.hpp"
 #include "../support/environment_file.hpp"
 #include "option_values.hpp"
 #include <pellucid/core/version.hpp>
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <map>
 
 namespace {
@@ -237,16 +236,8 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     app.add_option("--pipeline-cache", o.pipeline_cache, "FILE to keep compiled pipelines in");
     app.set_version_flag("--version", std::string("pellucid-render ") + PELLUCID_VERSION_STRING);
 
-    auto usage = [](const std::string& what) {
-        std::fprintf(stderr, "pellucid-render: %s\n", what.c_str());
-        return static_cast<int>(Exit::usage);
-    };
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return {o, app.exit(e)};
-        return {o, usage(std::string(e.what()) + " (--help lists the options)")};
-    }
+    const auto usage = [&](const std::string& what) { return samples::fail(app.get_name(), what, Exit::usage); };
+    if (const auto status = samples::parse_command_line(app, argc, argv)) return {o, *status};
     if (const std::string wrong = read_texts(app, t, o); !wrong.empty()) return {o, usage(wrong)};
     if (o.scene.empty() && !o.list_devices) return {o, usage("no scene is named (--help lists the options)")};
     if (const std::string wrong = check_reference(app, o); !wrong.empty()) return {o, usage(wrong)};

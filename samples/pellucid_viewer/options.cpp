@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "options.hpp"
 #include "../pellucid_render/option_values.hpp"
+#include "../support/command_line.hpp"
 #include "../support/environment_file.hpp"
 #include <pellucid/core/version.hpp>
-#include <CLI/CLI.hpp>
-#include <cstdio>
 #include <vector>
 
 namespace pellucid::samples::viewer {
@@ -97,16 +96,8 @@ std::pair<Options, std::optional<int>> parse_options(int argc, char** argv) {
     CLI::App app{"Shows a glTF 2.0 scene, and what each method of transparency costs and how wrong it is.",
                  "pellucid-viewer"};
     add_options(app, o, t);
-    const auto usage = [](const std::string& what) {
-        std::fprintf(stderr, "pellucid-viewer: %s\n", what.c_str());
-        return static_cast<int>(Exit::usage);
-    };
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return {o, app.exit(e)};
-        return {o, usage(std::string(e.what()) + " (--help lists the options)")};
-    }
+    const auto usage = [&](const std::string& what) { return fail(app.get_name(), what, Exit::usage); };
+    if (const auto status = parse_command_line(app, argc, argv)) return {o, *status};
     if (const std::string wrong = read_texts(t, o); !wrong.empty()) return {o, usage(wrong)};
     return {o, std::nullopt};
 }

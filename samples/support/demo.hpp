@@ -4,14 +4,12 @@
 /// What the demonstrations share: options, the device's messages, the choice of the backend, the end of a program.
 /// Exit statuses are those of pellucid-render (DESIGN.md).
 #include "../pellucid_render/option_values.hpp"
-#include "exit_status.hpp"
+#include "command_line.hpp"
 #include "messages.hpp"
 #include <pellucid/pellucid.hpp>
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -45,22 +43,6 @@ inline void add_demo_options(CLI::App& app, DemoOptions& o) {
     CLI::Option* headless = app.add_flag("--headless", o.headless, "write pictures, open no window");
     app.add_option("--out", o.out, "folder for the pictures; it is made where it is missing (out)")->needs(headless);
     app.add_flag("--validate", o.validate, "validation layer and GL debug output; any message fails the run");
-}
-
-inline int fail(const std::string& program, const std::string& what, Exit status) {
-    std::fprintf(stderr, "%s: %s\n", program.c_str(), what.c_str());
-    return static_cast<int>(status);
-}
-
-/// Parses the command line.  An exit status where the program is done already (--help, bad usage).
-inline std::optional<int> parse_demo_options(CLI::App& app, int argc, char** argv) {
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        if (e.get_exit_code() == 0) return app.exit(e);
-        return fail(app.get_name(), std::string(e.what()) + " (--help lists the options)", Exit::usage);
-    }
-    return std::nullopt;
 }
 
 /// Calls `run(std::type_identity<B>, DeviceDesc)`, which returns `Result<void>`, for the backend that was asked for.
