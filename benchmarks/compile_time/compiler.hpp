@@ -67,19 +67,14 @@ public:
         if (!folder_.empty()) std::filesystem::remove_all(folder_, ignored);
     }
 
-    /// User time [s] of compiling `source`; without `object` its syntax alone is checked.
-    [[nodiscard]] Result<double> seconds(const std::string& source, const std::vector<std::string>& definitions,
-                                         bool object) {
+    /// User time [s] of compiling `source` to an object.
+    [[nodiscard]] Result<double> seconds(const std::string& source, const std::vector<std::string>& definitions = {}) {
         const std::string file = folder_ + "/source.cpp";
         PELLUCID_CHECK(write_file(file, source));
         std::vector<std::string> command = {program_};
         command.insert(command.end(), flags_.begin(), flags_.end());
         command.insert(command.end(), definitions.begin(), definitions.end());
-        if (object)
-            command.insert(command.end(), {"-c", "-o", folder_ + "/source.o"});
-        else
-            command.emplace_back("-fsyntax-only");
-        command.push_back(file);
+        command.insert(command.end(), {"-c", "-o", folder_ + "/source.o", file});
         return user_seconds(command);
     }
 

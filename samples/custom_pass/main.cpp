@@ -5,7 +5,6 @@
 #include <pellucid/rhi/readback.hpp>
 #include <pellucid/scene/demo_scene.hpp>
 #include <cstdio>
-#include <cstring>
 
 using namespace pellucid;
 
@@ -28,9 +27,8 @@ Result<void> draw(const Scene& scene, const char* file) {
     edges.record(*commands, {.line = {1, 1, 1, 0.9f}});
     PELLUCID_CHECK(device->submit());
 
-    PELLUCID_TRY(const rhi::Texels texels, rhi::download<B>(*device, edges.target(), {.size = size}));
-    Image8 picture(size.width, size.height, 4);
-    std::memcpy(picture.data.data(), texels.bytes.data(), picture.data.size());
+    PELLUCID_TRY(const Image8 picture,
+                 rhi::download_image<B, std::uint8_t>(*device, edges.target(), size, rhi::Format::rgba8_unorm));
     return write_png(file, picture);
 }
 

@@ -9,7 +9,6 @@
 #include <pellucid/passes/tonemap.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/rhi/readback.hpp>
-#include <cstring>
 #include <memory>
 #include <optional>
 
@@ -71,19 +70,12 @@ public:
     [[nodiscard]] Extent2D size() const { return settings_.size; }
     /// `[h, w, 4]` display codes of the last picture; waits.
     [[nodiscard]] Result<Image8> read_display() {
-        PELLUCID_TRY(const rhi::Texels texels, rhi::download<B>(*device_, display_, {.size = settings_.size}));
-        Image8 out(settings_.size.width, settings_.size.height, 4);
-        std::memcpy(out.data.data(), texels.bytes.data(), out.data.size());
-        return out;
+        return rhi::download_image<B, std::uint8_t>(*device_, display_, settings_.size, rhi::Format::rgba8_unorm);
     }
     /// `[h, w, 4]` of the last picture before it met the background: premultiplied radiance, and the share of the light
     /// behind that gets through; waits.
     [[nodiscard]] Result<ImageF> read_layers() {
-        PELLUCID_TRY(const rhi::Texels texels,
-                     rhi::download<B>(*device_, sum_, {.size = settings_.size, .format = rhi::Format::rgba32_float}));
-        ImageF out(settings_.size.width, settings_.size.height, 4);
-        std::memcpy(out.data.data(), texels.bytes.data(), texels.bytes.size());
-        return out;
+        return rhi::download_image<B, float>(*device_, sum_, settings_.size, rhi::Format::rgba32_float);
     }
 
 private:

@@ -82,10 +82,7 @@ public:
     [[nodiscard]] Extent2D size() const noexcept { return size_; }
     /// `[h, w, 4]` codes; waits.
     [[nodiscard]] Result<Image8> read() const {
-        PELLUCID_TRY(const rhi::Texels texels, rhi::download<B>(*device_, texture_, {.size = size_}));
-        Image8 out(size_.width, size_.height, 4);
-        std::memcpy(out.data.data(), texels.bytes.data(), out.data.size());
-        return out;
+        return rhi::download_image<B, std::uint8_t>(*device_, texture_, size_, rhi::Format::rgba8_unorm);
     }
 
 private:

@@ -59,11 +59,7 @@ public:
         }
         PELLUCID_CHECK(device_->submit());  // the frame ends, whatever came before
         PELLUCID_CHECK(placed);
-        PELLUCID_TRY(const rhi::Texels texels,
-                     rhi::download<B>(*device_, counts_, {.size = settings_.size, .format = rhi::Format::r32_float}));
-        ImageF out(settings_.size.width, settings_.size.height, 1);
-        std::memcpy(out.data.data(), texels.bytes.data(), texels.bytes.size());
-        return out;
+        return rhi::download_image<B, float>(*device_, counts_, settings_.size, rhi::Format::r32_float);
     }
 
 private:

@@ -13,12 +13,14 @@ namespace pellucid::samples::viewer {
 template <rhi::Backend B>
 class Side {
 public:
-    /// Draws a frame of `scene` by these settings; where they, or the scene, are new, with a new renderer, which takes
-    /// the old one's place once it has drawn.  What cannot be done is `problem()`, and the last picture stays.
-    /// Gives whether a frame was drawn.  Errors: device loss.
+    /// Draws a frame of `scene` by these settings; where they (but for the exposure), or the scene, are new, with a new
+    /// renderer, which takes the old one's place once it has drawn.  What cannot be done is `problem()`, and the last
+    /// picture stays. Gives whether a frame was drawn.  Errors: device loss.
     [[nodiscard]] Result<bool> draw(typename B::Device& device, const std::shared_ptr<const Scene>& scene,
                                     const RenderSettings& wanted, const Camera& camera) {
         rebuilt_ = false;
+        wanted_.exposure_ev = wanted.exposure_ev;
+        if (renderer_) renderer_->set_exposure(wanted.exposure_ev);
         const bool tried = scene_ == scene && same(wanted_, wanted);
         if (!tried) {
             const bool other_scene = scene_ != scene;

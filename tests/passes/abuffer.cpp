@@ -2,6 +2,7 @@
 // The A-buffer: the same bits in any number of bands, classes of tiles of any depth, and what a budget refuses.
 #include <numeric>
 #include <pellucid/passes/abuffer.hpp>
+#include <pellucid/passes/layer_count.hpp>
 #include <random>
 #include "support/known_scenes.hpp"
 #include "support/pass_stage.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The prefiltered cube map that a device makes of a picture, against integrals in double; and what is seen of it.
 #include <cstring>
+#include <pellucid/passes/environment.hpp>
 #include <pellucid/reference/image_based_light.hpp>
 #include <pellucid/reference/renderer.hpp>
 #include "support/assets.hpp"

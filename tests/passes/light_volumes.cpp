@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Lights drawn as volumes against the loop over all lights: the same to the rounding of the picture, wherever the eye,
 // the near plane and the light are.
+#include <pellucid/passes/light_volumes.hpp>
 #include "support/light_cases.hpp"
 
 using namespace pellucid;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A compute pass rebuilds, from the primitive id and the pixel alone, the surface that the G-buffer pass stored.
+#include <glm/trigonometric.hpp>
 #include <pellucid/reference/gbuffer.hpp>
-#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/renderer/gpu_scene.hpp>
 #include <pellucid/scene/framing.hpp>
 #include <pellucid/scene/gltf.hpp>
 #include <pellucid/scene/mipmap.hpp>

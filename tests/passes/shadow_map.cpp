@@ -2,6 +2,7 @@
 // Shadow maps against closed forms: the filter at a straight edge, planes that must not shadow themselves, shadows
 // where they belong and nowhere else.
 #include <cstdio>
+#include <pellucid/renderer/gpu_shadows.hpp>
 #include "support/shadow_cases.hpp"
 
 using namespace pellucid;

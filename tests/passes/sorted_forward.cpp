@@ -2,6 +2,7 @@
 // Sorted transparency: the order, and what comes out of blending in that order.
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
+#include <pellucid/passes/sorted_forward.hpp>
 #include "support/methods.hpp"
 #include "support/scene.hpp"
 #include "support/srgb_table.hpp"

@@ -23,14 +23,20 @@ glm::dvec4 composited(std::span<const reference::Fragment> fragments) {
     return sum;
 }
 
-/// Pixels that are looked at, and their fragments.
+/// Pixels that are looked at, and their fragments: as the scene is, and where corners lie on the grid of 1/256 pixel to
+/// which devices move them.  A highlight changes so fast across a pixel of the teapot that the two are up to 0.05
+/// apart: each pixel is judged by the nearer one (an H100 shows the second, to seven digits).
 struct Probe {
     std::uint32_t x, y;
-    std::vector<reference::Fragment> fragments;
+    std::vector<reference::Fragment> fragments, on_grid;
 };
 std::vector<Probe> probes(const Scene& scene, const Camera& camera, Extent2D size) {
-    const reference::RenderOptions options{.size = size, .lights = scene.lights, .stability = true};
+    reference::RenderOptions options{.size = size, .lights = scene.lights, .stability = true};
     const auto picture = test::must(reference::render(scene, camera, options));
+    const auto fragments_at = [&](std::uint32_t x, std::uint32_t y, std::uint32_t grid) {
+        options.corner_grid = grid;
+        return test::must(reference::fragments_at(scene, camera, options, x, y));
+    };
     std::vector<Probe> out;
     // Not too many: every one prepares the scene anew.  All deep ones, and some of the others.
     std::size_t seen = 0;
@@ -39,8 +45,7 @@ std::vector<Probe> probes(const Scene& scene, const Camera& camera, Extent2D siz
             if (*picture.stable.texel(x, y) == 0) continue;
             const std::uint32_t layers = *picture.layers.texel(x, y);
             const std::size_t every = layers == 0 ? 1500 : layers > 4 ? 4 : 60;
-            if (++seen % every == 0)
-                out.push_back({x, y, test::must(reference::fragments_at(scene, camera, options, x, y))});
+            if (++seen % every == 0) out.push_back({x, y, fragments_at(x, y, 0), fragments_at(x, y, 256)});
         }
     return out;
 }
@@ -70,7 +75,9 @@ TEMPLATE_LIST_TEST_CASE("peeling_demo: layers, alone and composited, are the ref
             for (const Probe& p : all) {
                 const std::size_t last = std::min<std::size_t>(k + 1, p.fragments.size());
                 const std::size_t first = alone ? std::min<std::size_t>(k, last) : 0;
+                REQUIRE(p.on_grid.size() == p.fragments.size());
                 const glm::dvec4 wanted = composited(std::span(p.fragments).subspan(first, last - first));
+                const glm::dvec4 moved = composited(std::span(p.on_grid).subspan(first, last - first));
                 const float* t = got.texel(p.x, p.y);
                 if (first == last) {
                     ++empty;
@@ -79,7 +86,13 @@ TEMPLATE_LIST_TEST_CASE("peeling_demo: layers, alone and composited, are the ref
                 }
                 compared[k] += alone ? 1 : 0;
                 worst_share = std::max(worst_share, std::abs(t[3] - wanted.w));
-                for (int c = 0; c < 3; ++c) worst = std::max(worst, std::abs(t[c] - wanted[c]) / (0.01 + wanted[c]));
+                const auto off = [&](const glm::dvec4& from) {
+                    double most_off = 0;
+                    for (int c = 0; c < 3; ++c)
+                        most_off = std::max(most_off, std::abs(t[c] - from[c]) / (0.01 + from[c]));
+                    return most_off;
+                };
+                worst = std::max(worst, std::min(off(wanted), off(moved)));
             }
         }
     std::printf("%s: %zu pixels, off by %.3g at most (relative), what gets through by %.3g\n", TestType::name,

@@ -41,7 +41,9 @@ TEMPLATE_LIST_TEST_CASE("settings of light and display are obeyed in the next fr
         CHECK(equal(now, v.expected(v.state.choices.render)));
         last = now;
     };
+    const Renderer<TestType>* renderer = v.session->left();
     change("exposure", [](RenderSettings& s) { s.exposure_ev = 1; });
+    CHECK(v.session->left() == renderer);
     change("tone map", [](RenderSettings& s) { s.tonemap = ToneCurve::reinhard; });
     change("BRDF", [](RenderSettings& s) { s.brdf = Brdf::blinn_phong; });
     change("background", [](RenderSettings& s) { s.background = {0.5f, 0, 0}; });

@@ -11,7 +11,7 @@ set(reference core scene gpu reference)
 set(measure core rhi measure)
 set(vulkan core rhi vulkan)
 set(opengl core rhi opengl)
-# Each backend's explicit instantiations.
+# Each backend's explicit instantiations: passes.hpp, renderer.hpp, passes.cpp.
 set(vulkan_passes core rhi gpu scene passes graph renderer vulkan)
 set(opengl_passes core rhi gpu scene passes graph renderer opengl)
 # Files that more may include the same of: the struct files' own base, and the one registry of binding numbers.
@@ -34,7 +34,7 @@ foreach(file IN LISTS files)
     continue()  # the umbrella
   elseif(file MATCHES "^include/pellucid/([a-z]+)/")
     set(room ${CMAKE_MATCH_1})
-  elseif(file MATCHES "^backends/([a-z]+)/(.*/)?passes\\.")
+  elseif(file MATCHES "^backends/([a-z]+)/(.*/)?(passes|renderer)\\.")
     set(room ${CMAKE_MATCH_1}_passes)
   elseif(file MATCHES "^backends/([a-z]+)/")
     set(room ${CMAKE_MATCH_1})

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Runs of pellucid-render on devices that are made up, which no driver of a test machine stands for.
 #include "pellucid_render/run.hpp"
+#include <pellucid/renderer/renderer-inl.hpp>
 #include <pellucid/rhi/null.hpp>
 #include <unistd.h>
 #include <filesystem>

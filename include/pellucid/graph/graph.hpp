@@ -5,6 +5,7 @@
 /// of theirs is built, and textures whose lifetimes do not overlap share memory.
 #include <pellucid/core/small_vector.hpp>
 #include <pellucid/graph/frame.hpp>
+#include <pellucid/graph/report.hpp>
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/unique.hpp>
 #include <algorithm>
@@ -28,19 +29,6 @@ struct GraphPassDesc {
     SmallVector<GraphTexture, 8> reads = {};
     SmallVector<GraphTexture, 8> writes = {};  ///< written; also listed in `reads` where earlier content matters
     bool live = false;  ///< runs even if nothing reads its textures: it writes buffers that the graph does not know
-};
-
-/// What became of a pass or a texture, for the frame's statistics.
-struct PassReport {
-    const char* name = "";
-    bool ran = false;
-    std::string reason;  ///< why it was left out; empty where it ran
-};
-/// What a texture of the graph takes.
-struct TextureReport {
-    const char* name = "";
-    std::uint64_t bytes = 0;
-    bool shared = false;  ///< uses the memory of an earlier texture
 };
 
 /// Passes run in the order they were added.  Build once, execute every frame without allocation.

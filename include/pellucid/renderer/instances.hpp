@@ -2,7 +2,7 @@
 #pragma once
 /// \file
 /// The list of what a backend's library instantiates, so that programs need not.
-#include <pellucid/renderer/renderer.hpp>
+#include <pellucid/renderer/renderer-inl.hpp>
 
 /// `how` is `extern` to declare, empty to define.  Use it inside namespace pellucid.
 #define PELLUCID_RENDERER_INSTANCES(how, B)    \
@@ -28,5 +28,6 @@
     how template class GpuLights<B>;           \
     how template class GpuShadows<B>;          \
     how template class GpuScene<B>;            \
+    how template class Opaque<B>;              \
     how template class Translucent<B>;         \
     how template class Renderer<B>;

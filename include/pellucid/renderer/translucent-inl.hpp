@@ -8,7 +8,7 @@ namespace pellucid::inline v0_1 {
 
 template <rhi::Backend B>
 void Translucent<B>::start(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs,
-                           const RenderSettings& settings, const Targets& targets) {
+                           const RenderSettings& settings, const FrameTargets& targets) {
     graph_ = &graph;
     scene_ = &scene;
     settings_ = &settings;

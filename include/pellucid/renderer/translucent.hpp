@@ -13,6 +13,8 @@
 #include <pellucid/passes/peel_seed.hpp>
 #include <pellucid/passes/sorted_forward.hpp>
 #include <pellucid/renderer/gpu_scene.hpp>
+#include <pellucid/renderer/opaque.hpp>
+#include <pellucid/renderer/stats.hpp>
 #include <pellucid/rhi/readback.hpp>
 #include <array>
 #include <bit>
@@ -22,37 +24,13 @@
 
 namespace pellucid::inline v0_1 {
 
-/// What the method of the last frame did, and what is missing from the picture.
-struct TranslucencyStats {
-    Transparency method = Transparency::none;
-    bool ran = false;              ///< the scene has translucent surfaces, and the method drew them
-    bool exact = false;            ///< no fragment is missing or in a wrong place, whatever the scene
-    std::string loses;             ///< what may be missing or out of place; empty where `exact`
-    std::uint32_t layers = 0;      ///< peel: peeled; peel_seed: drawn
-    bool truncated = false;        ///< peel: max_layers left fragments out.  dual_peel: it may have
-    std::uint32_t passes = 0;      ///< dual_peel: that found anything
-    std::uint32_t bands = 0;       ///< abuffer, interleaved: of rows, made one after the other
-    std::uint64_t pool_bytes = 0;  ///< abuffer, interleaved: [byte] for stored fragments
-    std::uint64_t bytes = 0;       ///< [byte] of all targets, textures and buffers of the method, the pool too
-};
-
-/// What a method asks of the lighting pass: textures of the graph, null where it asks for nothing.
-struct LightingChanges {
-    GraphTexture nodes, looks, layer_light;  ///< one translucent surface a pixel, and the light on it
-    GraphTexture depth, output;              ///< what it reads instead of the frame's depth, and writes instead of hdr
-};
-
 /// Declares one method's passes in a graph, and owns them.  Must not move once `start` was called.
 template <rhi::Backend B>
 class Translucent {
 public:
-    /// The frame's targets that methods draw into and test against.
-    struct Targets {
-        GraphTexture hdr, depth;  ///< rgba16_float, read and written; d32_float, read
-    };
     /// `scene` and `settings` must outlive the graph's use.
     void start(Graph<B>& graph, const GpuScene<B>& scene, const SceneNeeds& needs, const RenderSettings& settings,
-               const Targets& targets);
+               const FrameTargets& targets);
     /// Between the G-buffer, which `gbuffer` becomes when passes are created, and the lighting pass; not called where
     /// there is no lighting pass.
     LightingChanges declare_before_lighting(std::span<const GraphTexture> colors, const GBufferTargets& gbuffer);
@@ -121,7 +99,7 @@ private:
     SceneNeeds needs_;
     std::vector<const char*> own_targets_;  ///< names of the method's textures in the graph
     GraphTexture peel_next_, peel_sum_;
-    Targets targets_;
+    FrameTargets targets_;
     LightingChanges lighting_;
     GraphTexture skyx_info_;
     typename B::Device* device_ = nullptr;  ///< once a pass was created

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// Blocking readback of one texture level through the concepts alone, so that it works on every backend.
+/// Blocking readback of one texture level, or of a buffer, through the concepts alone, so that it works on every
+/// backend.
 #include <pellucid/rhi/backend.hpp>
 #include <pellucid/rhi/unique.hpp>
 #include <algorithm>
@@ -64,6 +65,17 @@ template <Backend B>
                                                 [&](typename B::Commands& cmd, Buffer buffer) {
                                                     cmd.copy(texture, buffer, TextureCopy{.mip = mip, .layer = layer});
                                                 }));
+    return out;
+}
+
+/// The same of level 0 of a texture of this size and format, as a picture `[h, w, info(format).bytes / sizeof(T)]`.
+template <Backend B, class T>
+[[nodiscard]] Result<Image<T>> download_image(typename B::Device& device, Texture texture, Extent2D size,
+                                              Format format) {
+    Texels texels;
+    PELLUCID_TRY(texels, download<B>(device, texture, {.size = size, .format = format}));
+    Image<T> out(size.width, size.height, info(format).bytes / static_cast<std::uint32_t>(sizeof(T)));
+    std::memcpy(out.data.data(), texels.bytes.data(), texels.bytes.size());
     return out;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 /// \file
-/// The renderer and its passes for OpenGL, compiled once into the backend's library.  Include it beside (or instead of)
-/// the passes' own headers to save their instantiation; without it everything works all the same.
+/// The renderer and all passes for OpenGL, compiled once into the backend's library.  Include it beside (or instead of)
+/// the passes' own headers to save their instantiation; without it they work all the same.
 #include <pellucid/opengl/opengl.hpp>
 #include <pellucid/renderer/instances.hpp>
 
