@@ -107,3 +107,4 @@ private:
 }  // namespace pellucid::inline v0_1
 
 #include <pellucid/renderer/gpu_scene-inl.hpp>
+#include <pellucid/renderer/gpu_scene_frame-inl.hpp>

@@ -3,8 +3,9 @@
 /// \file
 /// The one-call renderer: a scene, a camera and settings in; a picture and an account of what it took out.
 ///
-/// No pass is seen here: the bodies are in renderer/renderer-inl.hpp, and instantiated in the backends' libraries. Only
-/// for a backend that has none (a wrapper such as `Counted<B>`, or your own) does a program include them, in one file.
+/// No pass is seen here: the bodies are in renderer/renderer-inl.hpp, and the backends' libraries have them.  For a
+/// backend without a library (a wrapper such as `Counted<B>`, or your own) one file of the program includes them and
+/// instantiates the class.
 #include <pellucid/measure/gpu_timer.hpp>
 #include <pellucid/renderer/needs.hpp>
 #include <pellucid/renderer/stats.hpp>
