@@ -3,9 +3,23 @@
 #include <pellucid/scene/image_file.hpp>
 #include <support/skip.hpp>
 #include "markdown.hpp"
+#include "samples/pellucid_viewer/layout.hpp"
 #include <cmath>
 
 using namespace pellucid;
+
+namespace {
+/// Of codes, of the columns [first, end); both of one size.
+double rmse(const Image8& a, const Image8& b, std::uint32_t first, std::uint32_t end) {
+    double sum = 0;
+    for (std::uint32_t y = 0; y < a.height; ++y)
+        for (std::size_t i = std::size_t{first} * a.channels; i < std::size_t{end} * a.channels; ++i) {
+            const double d = (double(a.texel(0, y)[i]) - double(b.texel(0, y)[i])) / 255;
+            sum += d * d;
+        }
+    return std::sqrt(sum / (double(end - first) * a.height * a.channels));
+}
+}  // namespace
 
 TEST_CASE("the pages' pictures are what their commands draw", "[docs][gpu]") {
     const std::filesystem::path again = PELLUCID_DRAWN_PICTURES;
@@ -25,13 +39,11 @@ TEST_CASE("the pages' pictures are what their commands draw", "[docs][gpu]") {
         REQUIRE(shown->height == drawn->height);
         CHECK(shown->width <= 920);
         CHECK(shown->height <= 518);
-        double sum = 0;
-        for (std::size_t i = 0; i < shown->data.size(); ++i) {
-            const double d = (double(shown->data[i]) - double(drawn->data[i])) / 255;
-            sum += d * d;
-        }
+        // The viewer's panel names the driver, and versions of its library differ by a pixel here and there.
+        const std::uint32_t panel = name.starts_with("viewer-") ? samples::viewer::panel_width : 0;
         // Another processor's Mesa rounds some codes otherwise; another picture is far below this.
-        CHECK(std::sqrt(sum / static_cast<double>(shown->data.size())) < 0.004);
+        CHECK(rmse(*shown, *drawn, panel, shown->width) < 0.004);
+        if (panel > 0) CHECK(rmse(*shown, *drawn, 0, panel) < 0.02);
         ++count;
     }
     CHECK(count > 20);
